@@ -3,7 +3,11 @@
 #![forbid(unsafe_code)]
 
 pub mod error;
+pub mod effect;
+pub mod freedom;
+pub mod integrator;
 pub mod math;
+pub mod state;
 pub mod tolerance;
 
 pub use error::{Error, Result};

@@ -1,0 +1,153 @@
+//! Motion without contact: an integrator on its problem, and the motion of its last step.
+
+use super::{Front, Integrator, Problem, Segment, StateVector};
+use crate::math::sum::Time;
+use crate::state::BodyMotion;
+use std::fmt::Debug;
+
+/// What a flight has done so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Counts {
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps refused by error control.
+    pub rejected: u64,
+    /// Evaluations of Y′.
+    pub evaluations: u64,
+    /// Largest `||q| − 1|`, or `‖RᵀR − I‖`, before an orientation was put back [-].
+    pub orientation_drift: f64,
+}
+
+impl Counts {
+    /// Adds the work of another flight; of two drifts the larger stays.
+    pub fn add(&mut self, other: &Self) {
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+        self.evaluations += other.evaluations;
+        self.orientation_drift = self.orientation_drift.max(other.orientation_drift);
+    }
+}
+
+/// Why a flight cannot go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlightError {
+    /// A number is not finite any more.
+    #[error("state is not finite")]
+    NotFinite,
+    /// A user's function gave up.
+    #[error("a user effect failed: {0}")]
+    UserEffect(String),
+}
+
+/// The motion of a group of bodies between contacts.
+pub trait Flight: Debug + Send {
+    /// How far the motion is known [s].
+    fn front(&self) -> f64;
+
+    /// Takes one step, which ends at `limit` [s] or before it.
+    ///
+    /// # Errors
+    /// The state is not finite any more, or a user's function failed. The last good segment stays.
+    fn advance(&mut self, limit: f64) -> Result<(), FlightError>;
+
+    /// The motion of the last step, as numbers.
+    fn segment(&self) -> &Segment;
+
+    /// The motion of every body at `t` [s], read from the last step's segment; before the first
+    /// step, at the start.
+    fn at(&self, t: f64, motions: &mut [BodyMotion]);
+
+    /// Cuts the last step at `t` [s] and goes on from there with the numbers `y`.
+    fn restart(&mut self, t: f64, y: &[f64]);
+
+    /// Marks that the interval up to the front is over: what follows sees the other side of a switch.
+    fn pass_switch(&mut self);
+
+    /// What has been done so far.
+    fn counts(&self) -> &Counts;
+
+    /// The front as it is kept, for a saved state: time, start of the smooth interval, numbers.
+    fn saved_front(&self) -> (Time, f64, &[f64]);
+
+    /// Goes on from a saved front.
+    fn resume(&mut self, time: Time, since: f64, y: &[f64], segment: Segment, counts: Counts);
+}
+
+/// A flight by numerical integration.
+#[derive(Debug)]
+pub struct Integration<P: Problem> {
+    problem: P,
+    integrator: Box<dyn Integrator<P>>,
+    front: Front<P::Y>,
+    segment: Segment,
+    counts: Counts,
+}
+
+impl<P: Problem> Integration<P> {
+    /// A flight that starts at `t` [s] with the numbers `y`.
+    pub fn new(problem: P, integrator: Box<dyn Integrator<P>>, t: f64, y: &[f64]) -> Self {
+        let mut start = P::Y::zeros(y.len());
+        start.as_mut().copy_from_slice(y);
+        let front = Front { time: Time::new(t), since: t, y: start };
+        Self { problem, integrator, front, segment: Segment::default(), counts: Counts::default() }
+    }
+}
+
+impl<P: Problem> Flight for Integration<P> {
+    fn front(&self) -> f64 {
+        self.front.time.value
+    }
+
+    fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
+        let Self { problem, integrator, front, segment, counts } = self;
+        integrator.advance(problem, front, limit, segment, counts);
+        if front.y.as_ref().iter().sum::<f64>().is_finite() {
+            return Ok(());
+        }
+        Err(problem.take_failure().map_or(FlightError::NotFinite, FlightError::UserEffect))
+    }
+
+    fn segment(&self) -> &Segment {
+        &self.segment
+    }
+
+    fn at(&self, t: f64, motions: &mut [BodyMotion]) {
+        // the ends are the integrator's own states, to the bit
+        if self.segment.dimension == 0 || t >= self.front.time.value {
+            return self.problem.decode(self.front.y.as_ref(), motions);
+        }
+        let mut y = P::Y::zeros(self.segment.dimension);
+        self.segment.at(t, y.as_mut());
+        self.problem.decode(y.as_ref(), motions);
+    }
+
+    fn restart(&mut self, t: f64, y: &[f64]) {
+        self.segment.end = t;
+        self.front.time = Time::new(t);
+        self.front.y.as_mut().copy_from_slice(y);
+        self.integrator.restart();
+    }
+
+    fn pass_switch(&mut self) {
+        self.front.since = self.front.time.value;
+        self.integrator.restart();
+    }
+
+    fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    fn saved_front(&self) -> (Time, f64, &[f64]) {
+        (self.front.time, self.front.since, self.front.y.as_ref())
+    }
+
+    fn resume(&mut self, time: Time, since: f64, y: &[f64], segment: Segment, counts: Counts) {
+        self.front = Front { time, since, y: self.front.y.clone() };
+        self.front.y.as_mut().copy_from_slice(y);
+        self.segment = segment;
+        self.counts = counts;
+        self.integrator.restart();
+    }
+}
