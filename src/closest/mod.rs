@@ -1,0 +1,3 @@
+//! Where two bodies come closest.
+
+pub mod vertex_plane;
