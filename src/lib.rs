@@ -3,7 +3,9 @@
 #![forbid(unsafe_code)]
 
 pub mod error;
+pub mod mass;
 pub mod math;
+pub mod shape;
 pub mod tolerance;
 
 pub use error::{Error, Result};

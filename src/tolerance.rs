@@ -3,3 +3,19 @@
 /// How far a given quaternion's length may be from 1 [-]. Orientations are typed by people with a
 /// few digits; what lies within is divided by its length, what lies outside is refused as a mistake.
 pub const QUATERNION_LENGTH: f64 = 1.0e-3;
+
+/// How far a given inertia may be from symmetric, and how much its largest principal moment may
+/// exceed the sum of the two others, as a fraction of the largest entry [-]. Turning a tensor leaves
+/// 1e-15, a printout of ten digits 1e-10. What lies within is taken for rounding (the tensor is then
+/// made symmetric by the mean); no mass distribution has what lies outside, and it is refused.
+pub const INERTIA: f64 = 1.0e-9;
+
+/// How far the vertices of a polygonal face may be from its plane, as a fraction of the
+/// polyhedron's extent [-]. OBJ files printed to six digits stay within. The triangles from the
+/// face's first vertex bound the solid, so a bent face moves the volume by that fraction at most;
+/// what lies outside is refused, since then the fan's first vertex would matter.
+pub const FACE_PLANARITY: f64 = 1.0e-5;
+
+/// Volume, as a fraction of the bounding box's, below which a closed surface encloses none [-]. The
+/// volume is summed to 1e-30 of the box, so what lies above is not rounding.
+pub const VOLUME: f64 = 1.0e-24;
