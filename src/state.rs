@@ -28,6 +28,7 @@ impl BodyState {
 /// Motion of one body at an instant: its state and what follows from it, worked out once per
 /// evaluation and handed to every effect. World axes unless a name ends in `_body`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyMotion {
     /// Mass m [kg].
     pub mass: f64,

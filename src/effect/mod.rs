@@ -61,6 +61,11 @@ pub trait Effect: Debug + Send + Sync {
         None
     }
 
+    /// Whether its load is that of its potential energy alone: no heat, and no work from outside.
+    fn conservative(&self) -> bool {
+        false
+    }
+
     /// Times at which the load jumps [s]; no step straddles one.
     fn switches(&self) -> Vec<f64> {
         Vec::new()

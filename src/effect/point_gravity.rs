@@ -73,6 +73,10 @@ impl Effect for PointGravity {
         (self.mu == 0.0).then_some("mu is 0")
     }
 
+    fn conservative(&self) -> bool {
+        true
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         for (body, load) in bodies.iter().zip(loads) {
             let r = body.position - Vector3::from(self.center);

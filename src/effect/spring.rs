@@ -116,6 +116,10 @@ impl Effect for Spring {
         (self.stiffness == 0.0 && self.damping == 0.0).then_some("its stiffness and damping are 0")
     }
 
+    fn conservative(&self) -> bool {
+        self.damping == 0.0
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         let (pa, pb, d, u) = self.ends(bodies);
         let length = d.norm();

@@ -50,6 +50,10 @@ impl Effect for UniformGravity {
         (self.acceleration == [0.0; 3]).then_some("its acceleration is 0")
     }
 
+    fn conservative(&self) -> bool {
+        true
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         let g = Vector3::from(self.acceleration);
         for (body, load) in bodies.iter().zip(loads) {

@@ -97,6 +97,10 @@ impl Effect for UserEffect {
         self.couples.clone().map_or_else(|| Target::each(self.bodies.as_ref()), Target::Together)
     }
 
+    fn conservative(&self) -> bool {
+        self.energy.is_some()
+    }
+
     fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         if self.couples.is_some() {
             for ((force, torque), load) in self.loads(at, bodies).into_iter().zip(loads) {

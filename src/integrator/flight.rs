@@ -59,8 +59,14 @@ pub trait Flight: Debug + Send {
     /// step, at the start.
     fn at(&self, t: f64, motions: &mut [BodyMotion]);
 
-    /// Cuts the last step at `t` [s] and goes on from there with the numbers `y`.
-    fn restart(&mut self, t: f64, y: &[f64]);
+    /// The same at a time from the start of the last step [s], which no rounding of large times blurs.
+    fn at_offset(&self, offset: f64, motions: &mut [BodyMotion]);
+
+    /// Cuts the last step at a time from its start [s]: the front is there now.
+    fn cut(&mut self, offset: f64);
+
+    /// Sets the front's clock and the start of its interval without switches [s].
+    fn set_clock(&mut self, time: Time, since: f64);
 
     /// Marks that the interval up to the front is over: what follows sees the other side of a switch.
     fn pass_switch(&mut self);
@@ -81,6 +87,8 @@ pub struct Integration<P: Problem> {
     problem: P,
     integrator: Box<dyn Integrator<P>>,
     front: Front<P::Y>,
+    /// Where the last step began.
+    start: Time,
     segment: Segment,
     counts: Counts,
 }
@@ -91,7 +99,7 @@ impl<P: Problem> Integration<P> {
         let mut start = P::Y::zeros(y.len());
         start.as_mut().copy_from_slice(y);
         let front = Front { time: Time::new(t), since: t, y: start };
-        Self { problem, integrator, front, segment: Segment::default(), counts: Counts::default() }
+        Self { problem, integrator, front, start: Time::new(t), segment: Segment::default(), counts: Counts::default() }
     }
 }
 
@@ -101,7 +109,8 @@ impl<P: Problem> Flight for Integration<P> {
     }
 
     fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
-        let Self { problem, integrator, front, segment, counts } = self;
+        let Self { problem, integrator, front, start, segment, counts } = self;
+        *start = front.time;
         integrator.advance(problem, front, limit, segment, counts);
         if front.y.as_ref().iter().sum::<f64>().is_finite() {
             return Ok(());
@@ -118,16 +127,25 @@ impl<P: Problem> Flight for Integration<P> {
         if self.segment.dimension == 0 || t >= self.front.time.value {
             return self.problem.decode(self.front.y.as_ref(), motions);
         }
+        self.at_offset(t - self.segment.start, motions);
+    }
+
+    fn at_offset(&self, offset: f64, motions: &mut [BodyMotion]) {
         let mut y = P::Y::zeros(self.segment.dimension);
-        self.segment.at(t, y.as_mut());
+        self.segment.at_offset(offset, y.as_mut());
         self.problem.decode(y.as_ref(), motions);
     }
 
-    fn restart(&mut self, t: f64, y: &[f64]) {
-        self.segment.end = t;
-        self.front.time = Time::new(t);
-        self.front.y.as_mut().copy_from_slice(y);
+    fn cut(&mut self, offset: f64) {
+        self.segment.at_offset(offset, self.front.y.as_mut());
+        self.front.time = self.start + offset;
+        self.segment.end = self.front.time.value;
         self.integrator.restart();
+    }
+
+    fn set_clock(&mut self, time: Time, since: f64) {
+        self.front.time = time;
+        self.front.since = since;
     }
 
     fn pass_switch(&mut self) {
@@ -144,7 +162,8 @@ impl<P: Problem> Flight for Integration<P> {
     }
 
     fn resume(&mut self, time: Time, since: f64, y: &[f64], segment: Segment, counts: Counts) {
-        self.front = Front { time, since, y: self.front.y.clone() };
+        self.set_clock(time, since);
+        self.start = Time::new(segment.start);
         self.front.y.as_mut().copy_from_slice(y);
         self.segment = segment;
         self.counts = counts;

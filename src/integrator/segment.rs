@@ -60,7 +60,12 @@ impl Segment {
 
     /// The numbers at `t` [s].
     pub fn at(&self, t: f64, y: &mut [f64]) {
-        let s = (t - self.start) / self.length;
+        self.at_offset(t - self.start, y);
+    }
+
+    /// The numbers at a time from the start [s].
+    pub fn at_offset(&self, offset: f64, y: &mut [f64]) {
+        let s = offset / self.length;
         let mut terms = self.coefficients.chunks_exact(self.dimension.max(1)).rev();
         match terms.next() {
             Some(highest) => y.copy_from_slice(highest),

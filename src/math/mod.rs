@@ -6,7 +6,9 @@
 //! | [`quaternion`] | (25)–(29) | product, rate, matrix and back, exponential map |
 //! | [`pose`] | §1 | where a body frame stands in the world |
 //! | [`sum`] | – | time and sums with their rounding error kept |
+//! | [`double`] | – | arithmetic of 32 digits, for sums that cancel |
 
+pub mod double;
 pub mod pose;
 pub mod quaternion;
 pub mod rotation;

@@ -47,6 +47,13 @@ impl<Y> Group<Y> {
         }
     }
 
+    /// What holds each body in its freedom, the motions being as they were given.
+    pub(crate) fn reactions(&mut self, at: Moment) -> Vec<Load> {
+        self.add_loads(at);
+        let bodies = self.charts.iter().zip(&self.motions).zip(&self.loads);
+        bodies.map(|((chart, motion), load)| chart.reaction(motion, load)).collect()
+    }
+
     /// Loads of all effects on the motions as they stand.
     fn add_loads(&mut self, at: Moment) {
         self.loads.fill(Load::zero());

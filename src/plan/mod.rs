@@ -50,6 +50,13 @@ pub(crate) struct Binding {
     pub(crate) together: bool,
 }
 
+impl Binding {
+    /// The motions of those members of a group that the effect acts on.
+    pub(crate) fn seen(&self, members: &[BodyMotion]) -> Vec<BodyMotion> {
+        self.members.iter().map(|&i| members[i]).collect()
+    }
+}
+
 /// Bodies that share one integrator and one clock.
 #[derive(Debug, Clone)]
 pub struct FlightGroup {
