@@ -1,0 +1,4 @@
+//! bryla against numbers that it did not make: exact rational arithmetic, parry, independent formulas.
+
+mod mass;
+mod parry;
