@@ -24,6 +24,12 @@ use crate::tolerance;
 ///
 /// and whole surfaces that are inside out or without volume ([`tolerance::VOLUME`]).
 pub fn check(place: &str, vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<()> {
+    check_faces(place, vertices, faces)?;
+    check_volume(place, polyhedron::filled_fraction(vertices, faces))
+}
+
+/// All of [`check`] but the volume.
+pub(super) fn check_faces(place: &str, vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<()> {
     for (v, p) in vertices.iter().enumerate() {
         if !p.iter().all(|x| x.is_finite()) {
             return Err(Error::mesh(place, format!("vertex {v} must be finite, got {p:?}")));
@@ -32,13 +38,14 @@ pub fn check(place: &str, vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result
     if faces.is_empty() {
         return Err(Error::mesh(place, "has no faces"));
     }
-    for (f, face) in faces.iter().enumerate() {
-        check_indices(f, face, vertices.len()).map_err(|reason| Error::mesh(place, reason))?;
-    }
-    check_edges(faces).map_err(|reason| Error::mesh(place, reason))?;
-    check_planes(vertices, faces).map_err(|reason| Error::mesh(place, reason))?;
+    check_indices(vertices, faces)
+        .and_then(|()| check_edges(faces))
+        .and_then(|()| check_planes(vertices, faces))
+        .map_err(|reason| Error::mesh(place, reason))
+}
 
-    let filled = polyhedron::filled_fraction(vertices, faces);
+/// Refuses a surface that fills none of its bounding box, or a negative fraction.
+pub(super) fn check_volume(place: &str, filled: f64) -> Result<()> {
     if filled.abs() <= tolerance::VOLUME {
         return Err(Error::mesh(place, "encloses no volume"));
     }
@@ -48,17 +55,21 @@ pub fn check(place: &str, vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result
     Ok(())
 }
 
-fn check_indices(f: usize, face: &[usize], vertices: usize) -> Result<(), String> {
-    if face.len() < 3 {
-        return Err(format!("face {f} has {} vertices, needs at least 3", face.len()));
-    }
-    if let Some(v) = face.iter().find(|&&v| v >= vertices) {
-        return Err(format!("face {f} names vertex {v}, but there are {vertices} (numbered from 0)"));
-    }
-    let mut sorted = face.to_vec();
-    sorted.sort_unstable();
-    if let Some(k) = (1..sorted.len()).find(|&k| sorted[k - 1] == sorted[k]) {
-        return Err(format!("face {f} names vertex {} twice", sorted[k]));
+fn check_indices(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> Result<(), String> {
+    let count = vertices.len();
+    let mut sorted = Vec::new();
+    for (f, face) in faces.iter().enumerate() {
+        if face.len() < 3 {
+            return Err(format!("face {f} has {} vertices, needs at least 3", face.len()));
+        }
+        if let Some(v) = face.iter().find(|&&v| v >= count) {
+            return Err(format!("face {f} names vertex {v}, but there are {count} (numbered from 0)"));
+        }
+        sorted.clone_from(face);
+        sorted.sort_unstable();
+        if let Some(k) = (1..sorted.len()).find(|&k| sorted[k - 1] == sorted[k]) {
+            return Err(format!("face {f} names vertex {} twice", sorted[k]));
+        }
     }
     Ok(())
 }
@@ -86,12 +97,12 @@ fn check_edges(faces: &[Vec<usize>]) -> Result<(), String> {
 
     let (mut open, mut crowded, mut parallel) = (Vec::new(), Vec::new(), Vec::new());
     for group in sides.chunk_by(|a, b| a.edge == b.edge) {
-        let edge = format!("{}–{}", group[0].edge.0, group[0].edge.1);
+        let (from, to) = group[0].edge;
         match group {
-            [side] => open.push(format!("{edge} (face {})", side.face)),
-            [a, b] if a.upward == b.upward => parallel.push(format!("{edge} (faces {} and {})", a.face, b.face)),
-            [_, _] => {}
-            more => crowded.push(format!("{edge} ({} faces)", more.len())),
+            [a, b] if a.upward != b.upward => {}
+            [a] => open.push(format!("{from}–{to} (face {})", a.face)),
+            [a, b] => parallel.push(format!("{from}–{to} (faces {} and {})", a.face, b.face)),
+            more => crowded.push(format!("{from}–{to} ({} faces)", more.len())),
         }
     }
     for (edges, trouble) in [

@@ -11,7 +11,7 @@ const E: f64 = f64::EPSILON;
 
 // ---------------------------------------------------------------- solids to measure
 
-/// Repeatable random numbers (Steele, Lea and Flood 2014: SplitMix64).
+/// Repeatable random numbers (Steele, Lea and Flood 2014: `SplitMix64`).
 struct Random(u64);
 
 impl Random {
@@ -143,7 +143,7 @@ struct Exact {
 /// `∫ xᵢ f dV = ∮ F nᵢ dA` with `∂F/∂xᵢ = xᵢ f`, and over a triangle the mean of a product of three linear
 /// functions is a sum over its corners.
 fn exact(solid: &Polyhedron) -> Exact {
-    let r = |x: f64| RBig::try_from(x).unwrap();
+    let r = |x: f64| RBig::try_from(x).expect("a finite number");
     let vertices: Vec<[RBig; 3]> = solid.vertices.iter().map(|v| v.map(r)).collect();
     let ones = [RBig::ONE, RBig::ONE, RBig::ONE];
     let n = |k: u32| RBig::from(k);
@@ -196,7 +196,7 @@ fn mean(u: &[RBig; 3], v: &[RBig; 3], w: &[RBig; 3]) -> RBig {
 
 /// `|x − truth|`, the difference taken exactly.
 fn error(x: f64, truth: &RBig) -> f64 {
-    (RBig::try_from(x).unwrap() - truth).to_f64().value().abs()
+    (RBig::try_from(x).expect("a finite number") - truth).to_f64().value().abs()
 }
 
 fn value(x: &RBig) -> f64 {
@@ -383,7 +383,8 @@ fn a_capsule_has_half_spheres_whose_centers_lie_outside_the_cylinder_ends() {
 
 #[test]
 fn round_solids_are_the_limit_of_their_facets() {
-    let cases: [(Shape, fn(Vector3) -> Vector3); 2] = [
+    type Surface = fn(Vector3) -> Vector3;
+    let cases: [(Shape, Surface); 2] = [
         (Ellipsoid::new([0.5, 0.8, 1.1]).into(), |n| n.component_mul(&Vector3::new(0.5, 0.8, 1.1))),
         (Sphere::new(0.6).into(), |n| 0.6 * n),
     ];
@@ -611,7 +612,8 @@ fn parry_agrees() {
     // closed meshes, away from the origin, slanted and not convex: parry sums in plain f64
     for (name, solid) in random_solids().iter().filter(|(name, _)| name.starts_with("globe") || name.starts_with('L')) {
         let vertices: Vec<_> = solid.vertices.iter().map(|&v| parry::vector(v)).collect();
-        let faces: Vec<[u32; 3]> = solid.faces.iter().map(|f| [0, 1, 2].map(|k| f[k] as u32)).collect();
+        let faces: Vec<[u32; 3]> =
+            solid.faces.iter().map(|f| [0, 1, 2].map(|k| u32::try_from(f[k]).unwrap())).collect();
         let peer = SharedShape::trimesh(vertices, faces).unwrap().mass_properties(2.0);
         compare(name, &solid.mass_properties(2.0).unwrap(), &peer, 256.0 * E);
     }
@@ -649,8 +651,8 @@ mod files {
 
         let mesh = Mesh::new("wrench.stl", 1e-3);
         let solid = mesh.read(scenes()).unwrap();
-        // Euler: one hole, and every edge of a triangle is shared by two
-        assert_eq!(solid.vertices.len() as i64 - solid.faces.len() as i64 / 2, 0);
+        // Euler's V − E + F = 0 of a solid with one hole, 2 E = 3 F
+        assert_eq!(2 * solid.vertices.len(), solid.faces.len());
         let found = solid.mass_properties(7800.0).unwrap();
         // coordinates are rounded once by the scale
         assert_close(&found, &drawn, 8.0 * E);
@@ -671,12 +673,12 @@ mod files {
     impl Folder {
         fn new(name: &str) -> Self {
             let path = std::env::temp_dir().join(format!("bryla-{name}-{}", std::process::id()));
-            std::fs::create_dir_all(&path).unwrap();
+            std::fs::create_dir_all(&path).expect("a folder for the test");
             Self(path)
         }
 
         fn read(&self, name: &str, text: impl AsRef<[u8]>) -> Result<Polyhedron, String> {
-            std::fs::write(self.0.join(name), text).unwrap();
+            std::fs::write(self.0.join(name), text).expect("a file for the test");
             let shown = format!("{}{}", self.0.display(), std::path::MAIN_SEPARATOR);
             Mesh::new(name, 1.0).read(&self.0).map_err(|e| e.to_string().replace(&shown, ""))
         }
