@@ -459,7 +459,7 @@ fn parallel_axes_there_and_back_return_the_original() {
         let point = random.vector() * 3.0;
         let there = body.about(point);
         assert!(there.trace() > body.inertia.trace(), "{name}: moving away from the centre must add");
-        let back = MassProperties::from_inertia_about(point, name, body.mass, body.center_of_mass, there).unwrap();
+        let back = MassProperties::from_inertia_about(name, point, body.mass, body.center_of_mass, there).unwrap();
         let lost = 4.0 * E * there.amax();
         assert!((back.inertia - body.inertia).amax() <= lost, "{name}");
         assert_eq!(body.about(body.center_of_mass), body.inertia);
@@ -474,7 +474,7 @@ fn the_tensor_is_about_the_center_of_mass_not_the_origin() {
     assert!((found.inertia - centred.inertia).amax() <= 4.0 * E * centred.inertia.amax());
     assert!((found.center_of_mass - Vector3::new(10.0, 20.0, 30.0)).amax() <= 30.0 * E);
     // a tensor about the origin taken for one about the centre is too large, and the converse is refused
-    let wrong = MassProperties::from_inertia_about([0.0; 3], "box", found.mass, found.center_of_mass, found.inertia);
+    let wrong = MassProperties::from_inertia_about("box", [0.0; 3], found.mass, found.center_of_mass, found.inertia);
     assert!(wrong.unwrap_err().to_string().starts_with("box: inertia must be positive definite"));
 }
 
