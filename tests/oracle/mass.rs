@@ -692,16 +692,23 @@ mod files {
 
     #[test]
     fn an_obj_of_polygons_in_several_objects_is_one_surface() {
-        // a cube in two halves of its faces, with digits that single precision does not hold
-        let obj = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 0 0 0.1\nv 0.1 -0 0.1\nv 0.1 0.1 0.1\nv 0 0.1 0.1\n\
-                   o low\nf 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\no high\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n";
+        // a cube in two halves of its faces, each with corners of its own, as exporters write them: with
+        // zeros of either sign, and digits that single precision does not hold
+        let corners = |zero: &str| {
+            ["0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"]
+                .map(|v| format!("v {}\n", v.replace('0', zero).replace('1', "0.1")))
+                .concat()
+        };
+        let low = format!("o low\n{}f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\n", corners("0.0"));
+        let high = format!("o high\n{}f 11 12 16 15\nf 12 9 13 16\nf 13 14 15 16\n", corners("-0.0"));
+        let obj = low + &high;
         let folder = Folder::new("obj");
-        let solid = folder.read("cube.obj", obj).unwrap();
+        let solid = folder.read("cube.obj", &obj).unwrap();
         assert_eq!((solid.vertices.len(), solid.faces.len()), (8, 6));
         let cube = Cuboid::new([0.05; 3]).mass_properties(1.0).unwrap().moved([0.05; 3]);
         assert_close(&solid.mass_properties(1.0).unwrap(), &cube, 8.0 * E);
         // triangles and polygons mixed
-        let mixed = folder.read("mixed.obj", obj.replace("f 5 6 7 8", "f 5 6 7\nf 5 7 8")).unwrap();
+        let mixed = folder.read("mixed.obj", obj.replace("f 13 14 15 16", "f 13 14 15\nf 13 15 16")).unwrap();
         assert_eq!(mixed.faces.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4, 4, 4, 4, 3, 3]);
         assert_close(&mixed.mass_properties(1.0).unwrap(), &cube, 8.0 * E);
     }
