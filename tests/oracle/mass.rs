@@ -547,7 +547,7 @@ fn a_solid_cut_in_two_and_joined_is_the_whole() {
         );
     }
     let nothing = MassProperties::combined(&[]);
-    assert_eq!((nothing.mass, nothing.inertia), (0.0, Matrix3::zeros()));
+    assert_eq!(nothing, MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::zeros() });
 }
 
 #[test]
