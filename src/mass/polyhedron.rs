@@ -18,7 +18,7 @@
 //! plate, is the small difference of large terms. So differences from the reference are kept exactly and
 //! all sums have 32 digits ([`Double`]). Every number comes out within few units of its last digit
 //! of what these vertices exactly enclose, at any offset, for plates of 1e-12. Price: half a
-//! triangle, once.
+//! microsecond a triangle, once.
 
 use crate::error::Result;
 use crate::mass::principal::power_of_two_above;

@@ -25,13 +25,8 @@ impl MassProperties {
     ///
     /// # Errors
     /// Whatever no body can have; see [`MassProperties::validate`]. `place` is named in the message.
-    pub fn new(
-        place: &str,
-        mass: f64,
-        center_of_mass: impl Into<Vector3>,
-        inertia: impl Into<Matrix3>,
-    ) -> Result<Self> {
-        let given = Self { mass, center_of_mass: center_of_mass.into(), inertia: inertia.into() };
+    pub fn new(place: &str, mass: f64, center_of_mass: impl Into<Vector3>, inertia: Matrix3) -> Result<Self> {
+        let given = Self { mass, center_of_mass: center_of_mass.into(), inertia };
         given.validate(place)?;
         Ok(Self { inertia: 0.5 * (given.inertia + given.inertia.transpose()), ..given })
     }
@@ -45,14 +40,14 @@ impl MassProperties {
     /// As [`MassProperties::new`]; an inertia that was about the centre of mass all along comes out too
     /// small and is often refused for that.
     pub fn from_inertia_about(
-        point: impl Into<Vector3>,
         place: &str,
+        point: impl Into<Vector3>,
         mass: f64,
         center_of_mass: impl Into<Vector3>,
-        inertia: impl Into<Matrix3>,
+        inertia: Matrix3,
     ) -> Result<Self> {
         let center_of_mass = center_of_mass.into();
-        let central = inertia.into() - point_inertia(mass, &(point.into() - center_of_mass));
+        let central = inertia - point_inertia(mass, &(point.into() - center_of_mass));
         Self::new(place, mass, center_of_mass, central)
     }
 

@@ -268,8 +268,15 @@ mod tests {
             let triangles: Vec<Vec<usize>> =
                 faces.iter().flat_map(|f| [vec![f[0], f[1], f[2]], vec![f[0], f[2], f[3]]]).collect();
             assert_eq!(refusal(&flat, &triangles), "body die: encloses no volume");
-            // slanted, its volume is only zero to rounding: dyadic slopes keep it exact
-            let slanted: Vec<_> = flat.iter().map(|v| [v[0], v[1], 0.5 * v[0] - 0.25 * v[1]]).collect();
+            // slanted, with 50 digits a coordinate that add exactly: the sum of 150 digits is only zero
+            // to rounding
+            let digits = |x: f64| libm::ldexp(libm::round(libm::ldexp(x, 50)), -50);
+            let slanted: Vec<_> = flat
+                .iter()
+                .enumerate()
+                .map(|(k, v)| [digits(0.1 * v[0] + 0.03 * k as f64), digits(0.7 * v[1])])
+                .map(|[x, y]| [x, y, x + y])
+                .collect();
             assert_eq!(refusal(&slanted, &triangles), "body die: encloses no volume");
         }
         // thin as it may be, a plate is a solid

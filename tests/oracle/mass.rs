@@ -459,7 +459,7 @@ fn parallel_axes_there_and_back_return_the_original() {
         let point = random.vector() * 3.0;
         let there = body.about(point);
         assert!(there.trace() > body.inertia.trace(), "{name}: moving away from the centre must add");
-        let back = MassProperties::from_inertia_about(point, name, body.mass, body.center_of_mass, there).unwrap();
+        let back = MassProperties::from_inertia_about(name, point, body.mass, body.center_of_mass, there).unwrap();
         let lost = 4.0 * E * there.amax();
         assert!((back.inertia - body.inertia).amax() <= lost, "{name}");
         assert_eq!(body.about(body.center_of_mass), body.inertia);
@@ -474,7 +474,7 @@ fn the_tensor_is_about_the_center_of_mass_not_the_origin() {
     assert!((found.inertia - centred.inertia).amax() <= 4.0 * E * centred.inertia.amax());
     assert!((found.center_of_mass - Vector3::new(10.0, 20.0, 30.0)).amax() <= 30.0 * E);
     // a tensor about the origin taken for one about the centre is too large, and the converse is refused
-    let wrong = MassProperties::from_inertia_about([0.0; 3], "box", found.mass, found.center_of_mass, found.inertia);
+    let wrong = MassProperties::from_inertia_about("box", [0.0; 3], found.mass, found.center_of_mass, found.inertia);
     assert!(wrong.unwrap_err().to_string().starts_with("box: inertia must be positive definite"));
 }
 
@@ -547,7 +547,7 @@ fn a_solid_cut_in_two_and_joined_is_the_whole() {
         );
     }
     let nothing = MassProperties::combined(&[]);
-    assert_eq!((nothing.mass, nothing.inertia), (0.0, Matrix3::zeros()));
+    assert_eq!(nothing, MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::zeros() });
 }
 
 #[test]
@@ -692,16 +692,23 @@ mod files {
 
     #[test]
     fn an_obj_of_polygons_in_several_objects_is_one_surface() {
-        // a cube in two halves of its faces, with digits that single precision does not hold
-        let obj = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nv 0 0 0.1\nv 0.1 -0 0.1\nv 0.1 0.1 0.1\nv 0 0.1 0.1\n\
-                   o low\nf 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\no high\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n";
+        // a cube in two halves of its faces, each with corners of its own, as exporters write them: with
+        // zeros of either sign, and digits that single precision does not hold
+        let corners = |zero: &str| {
+            ["0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"]
+                .map(|v| format!("v {}\n", v.replace('0', zero).replace('1', "0.1")))
+                .concat()
+        };
+        let low = format!("o low\n{}f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\n", corners("0.0"));
+        let high = format!("o high\n{}f 11 12 16 15\nf 12 9 13 16\nf 13 14 15 16\n", corners("-0.0"));
+        let obj = low + &high;
         let folder = Folder::new("obj");
-        let solid = folder.read("cube.obj", obj).unwrap();
+        let solid = folder.read("cube.obj", &obj).unwrap();
         assert_eq!((solid.vertices.len(), solid.faces.len()), (8, 6));
         let cube = Cuboid::new([0.05; 3]).mass_properties(1.0).unwrap().moved([0.05; 3]);
         assert_close(&solid.mass_properties(1.0).unwrap(), &cube, 8.0 * E);
         // triangles and polygons mixed
-        let mixed = folder.read("mixed.obj", obj.replace("f 5 6 7 8", "f 5 6 7\nf 5 7 8")).unwrap();
+        let mixed = folder.read("mixed.obj", obj.replace("f 13 14 15 16", "f 13 14 15\nf 13 15 16")).unwrap();
         assert_eq!(mixed.faces.iter().map(Vec::len).collect::<Vec<_>>(), [4, 4, 4, 4, 4, 3, 3]);
         assert_close(&mixed.mass_properties(1.0).unwrap(), &cube, 8.0 * E);
     }
