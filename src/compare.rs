@@ -8,11 +8,11 @@ use std::fmt;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
-use crate::report::short;
 use crate::scene::{Record, RunOptions, Scene, Span};
 use crate::simulation::RunError;
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
+use crate::text::short;
 use crate::trajectory::Trajectory;
 
 /// What is compared.

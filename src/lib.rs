@@ -2,6 +2,8 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "serde")]
+pub mod catalogue;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod closest;
@@ -21,6 +23,7 @@ pub mod scene;
 pub mod shape;
 pub mod simulation;
 pub mod state;
+mod text;
 pub mod tolerance;
 pub mod trajectory;
 

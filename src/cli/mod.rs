@@ -19,9 +19,9 @@ use clap::{Args, Parser, Subcommand};
 use crate::compare::CompareOptions;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
-use crate::report::short;
 use crate::scene::{Orientation, RunOptions, Scene, Span};
 use crate::simulation::{Progress, RunError};
+use crate::text::short;
 use crate::trajectory::Trajectory;
 
 /// Everything went well.

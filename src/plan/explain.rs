@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{FlightGroup, Plan};
 use crate::freedom::Chart;
-use crate::report::short;
+use crate::text::{counted, short};
 
 impl Plan {
     /// What runs, what is left out, and why.
@@ -94,8 +94,4 @@ impl Plan {
 /// The label on the first line of a block, blanks on the others.
 fn label(line: usize, name: &str) -> &str {
     if line == 0 { name } else { "" }
-}
-
-fn counted(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }
