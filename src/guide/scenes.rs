@@ -385,7 +385,7 @@ mod tests {
 
     /// The examples of this page in one language.
     fn examples(language: &str) -> Vec<String> {
-        let (mut all, mut inside) = (Vec::new(), false);
+        let (mut all, mut inside) = (Vec::<String>::new(), false);
         for line in PAGE.lines().filter_map(|line| line.strip_prefix("//!")) {
             match line.trim() {
                 fence if fence == format!("```{language}") => {
@@ -393,8 +393,12 @@ mod tests {
                     all.push(String::new());
                 }
                 "```" => inside = false,
-                _ if inside => all.extend(all.pop().map(|text| format!("{text}{line}\n"))),
-                _ => {}
+                _ => {
+                    if let Some(text) = all.last_mut().filter(|_| inside) {
+                        text.push_str(line);
+                        text.push('\n');
+                    }
+                }
             }
         }
         all
