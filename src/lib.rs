@@ -13,6 +13,7 @@ pub mod effect;
 pub mod error;
 pub mod export;
 pub mod freedom;
+pub mod guide;
 pub mod impact;
 pub mod integrator;
 pub mod mass;
