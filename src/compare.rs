@@ -73,13 +73,8 @@ impl Scene {
     pub fn compare(&self, span: impl Into<Span>, options: &CompareOptions) -> Result<ComparisonTable, RunError> {
         let span = span.into();
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
-        let base = RunOptions {
-            tolerance: None,
-            t_eval: None,
-            estimate: false,
-            record: Record::End,
-            ..options.run.clone()
-        };
+        let base =
+            RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
         let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
         let reference = Reference::new(self, span, &steps, &base)?;
 
@@ -198,7 +193,11 @@ impl ComparisonTable {
 impl fmt::Display for ComparisonTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "Error of the end state against {}", self.reference)?;
-        writeln!(f, "{:<20} {:>10} {:>11} {:>12} {:>10} {:>10}", "method", "step [s]", "error", "evaluations", "time [s]", "order")?;
+        writeln!(
+            f,
+            "{:<20} {:>10} {:>11} {:>12} {:>10} {:>10}",
+            "method", "step [s]", "error", "evaluations", "time [s]", "order"
+        )?;
         let mut before: Option<&Row> = None;
         for row in &self.rows {
             let error = match row.error {

@@ -30,7 +30,9 @@ pub mod trajectory;
 
 pub use compare::{CompareOptions, ComparisonTable};
 pub use contact::Response;
-pub use effect::{AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench};
+pub use effect::{
+    AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench,
+};
 pub use error::{Error, Result};
 pub use freedom::Freedom;
 pub use impact::Finder;

@@ -82,7 +82,11 @@ impl fmt::Display for Report {
             _ => writeln!(f)?,
         }
         writeln!(f, "  scale      positions over {} m, orientations in rad", short(self.length_scale))?;
-        writeln!(f, "  drift      orientation {} off its sphere before projection", short(self.counts.orientation_drift))?;
+        writeln!(
+            f,
+            "  drift      orientation {} off its sphere before projection",
+            short(self.counts.orientation_drift)
+        )?;
         write!(f, "  work       {} steps, {} evaluations", self.counts.steps, self.counts.evaluations)?;
         if self.impacts > 0 {
             write!(f, ", {} impacts ({} rounds of the finder)", self.impacts, self.impact_iterations)?;

@@ -4,6 +4,7 @@
 //! the bodies they act on, and leaves out what does nothing. The step loop then asks no questions.
 //! [`Plan::explain`] says what was kept, what was left out, and why.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use crate::closest::vertex_plane::{Collider, Plane};
@@ -130,6 +131,11 @@ impl Plan {
         if scene.bodies.is_empty() {
             return Err(Error::refused("scene", "there is no body in it"));
         }
+        let mut scene = scene.clone();
+        for shape in scene.bodies.iter_mut().filter_map(|body| body.shape.as_mut()) {
+            *shape = shape.loaded(Path::new(""))?;
+        }
+        let scene = &scene;
         let bodies = scene.bodies.iter().map(planned).collect::<Result<Vec<_>>>()?;
         for (index, body) in scene.bodies.iter().enumerate() {
             if scene.bodies[..index].iter().any(|other| other.name == body.name) {
@@ -190,7 +196,8 @@ impl Plan {
 
     /// The same plan with another step [s].
     pub(crate) fn with_step(&self, step: f64) -> Self {
-        let options = RunOptions { step: Some(step), tolerance: None, method: Some(self.method), ..self.options.clone() };
+        let options =
+            RunOptions { step: Some(step), tolerance: None, method: Some(self.method), ..self.options.clone() };
         Self { options, ..self.clone() }
     }
 
@@ -441,11 +448,16 @@ fn pairs(
                 );
                 return Err(Error::refused(what, reason));
             };
+            if scene.bodies[body].friction * scene.bodies[obstacle].friction > 0.0 {
+                let why = "impacts are answered without friction".to_owned();
+                left_out.push(LeftOut { what: format!("friction of {}–{}", bodies[a].name, bodies[b].name), why });
+            }
             let plane = Plane::new(half_space, &bodies[obstacle].start);
             let size = bodies[body].radius;
             let coordinates = bodies[body].start.position.amax() + plane.offset.abs() + size;
             if let Some(eps) = options.eps.filter(|eps| *eps < EPS_ROUNDING * coordinates) {
-                let allowed = format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
+                let allowed =
+                    format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
                 return Err(Error::value("run", "eps", allowed, eps));
             }
             let [a, b] = [body, obstacle].map(|i| (scene.bodies[i].restitution, scene.bodies[i].response));

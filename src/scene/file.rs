@@ -59,11 +59,16 @@ impl Scene {
     /// A user effect, which is code and has no text.
     pub fn to_text(&self, format: Format) -> Result<String> {
         if let Some(index) = self.effects.iter().position(|effect| matches!(effect, AnyEffect::User(_))) {
-            return Err(Error::refused(self.effect_place(index), "a user effect is code and cannot be written to a file"));
+            return Err(Error::refused(
+                self.effect_place(index),
+                "a user effect is code and cannot be written to a file",
+            ));
         }
         match format {
             Format::Toml => toml::to_string(self).map_err(|error| Error::refused("scene", error.to_string())),
-            Format::Json => serde_json::to_string_pretty(self).map_err(|error| Error::refused("scene", error.to_string())),
+            Format::Json => {
+                serde_json::to_string_pretty(self).map_err(|error| Error::refused("scene", error.to_string()))
+            }
         }
     }
 
@@ -112,5 +117,7 @@ fn with_caret(text: &str, error: &serde_json::Error) -> String {
     let source = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
     let margin = " ".repeat(line.to_string().len());
     let caret = " ".repeat(column.saturating_sub(1));
-    format!("JSON parse error at line {line}, column {column}\n{margin} |\n{line} | {source}\n{margin} | {caret}^\n{message}")
+    format!(
+        "JSON parse error at line {line}, column {column}\n{margin} |\n{line} | {source}\n{margin} | {caret}^\n{message}"
+    )
 }

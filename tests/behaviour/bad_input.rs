@@ -41,7 +41,10 @@ fn every_mistake_in_a_body_has_its_message() {
     let cases = [
         ("position = [0, nan, 0]", "body die: position must be three finite numbers, got [0.0, NaN, 0.0]"),
         ("velocity = [inf, 0, 0]", "body die: velocity must be three finite numbers, got [inf, 0.0, 0.0]"),
-        ("angular_velocity = [0, 0, nan]", "body die: angular_velocity must be three finite numbers, got [0.0, 0.0, NaN]"),
+        (
+            "angular_velocity = [0, 0, nan]",
+            "body die: angular_velocity must be three finite numbers, got [0.0, 0.0, NaN]",
+        ),
         ("position = [0, 0, 0]\norigin = [0, 0, 0]", "body die: position and origin exclude each other"),
         (
             "angular_velocity = [0, 0, 1]\nangular_velocity_body = [0, 0, 1]",
@@ -62,9 +65,15 @@ fn every_mistake_in_a_body_has_its_message() {
         ("restitution = -0.1", "body die: restitution must be between 0 and 1, got -0.1"),
         ("restitution = 1.5", "body die: restitution must be between 0 and 1, got 1.5"),
         ("friction = -1.0", "body die: friction must be a finite number ≥ 0, got -1.0"),
-        ("fixed = true\nvelocity = [1, 0, 0]", "body die: velocity must be left out, since the body is fixed, got [1.0, 0.0, 0.0]"),
+        (
+            "fixed = true\nvelocity = [1, 0, 0]",
+            "body die: velocity must be left out, since the body is fixed, got [1.0, 0.0, 0.0]",
+        ),
         ("fixed = true\nfreedom.pivot.point_body = [0, 0, 1]", "body die: fixed and freedom exclude each other"),
-        ("freedom.planar.normal = [0, 0, 0]", "body die: freedom.planar.normal must be a finite vector that is not 0, got [0.0, 0.0, 0.0]"),
+        (
+            "freedom.planar.normal = [0, 0, 0]",
+            "body die: freedom.planar.normal must be a finite vector that is not 0, got [0.0, 0.0, 0.0]",
+        ),
         (
             "freedom.planar.normal = [0, 0, 1]\nvelocity = [0, 0, 1]",
             "body die: velocity must be in the plane of its freedom, got [0.0, 0.0, 1.0]",
@@ -104,9 +113,18 @@ fn inertia_that_no_body_can_have_is_refused() {
 fn every_mistake_in_a_shape_has_its_message() {
     let cases = [
         ("shape.sphere.radius = -1.0", "body die: radius must be positive and finite, got -1.0"),
-        ("shape.cylinder = { radius = 1.0, half_height = 0.0 }", "body die: half_height must be positive and finite, got 0.0"),
-        ("shape.cuboid.half_extents = [1, 0, 1]", "body die: half_extents must be three positive finite lengths, got [1.0, 0.0, 1.0]"),
-        ("shape.half_space = { normal = [0, 0, 1], offset = 0.0 }", "body die: a half space has no finite mass; it must be fixed"),
+        (
+            "shape.cylinder = { radius = 1.0, half_height = 0.0 }",
+            "body die: half_height must be positive and finite, got 0.0",
+        ),
+        (
+            "shape.cuboid.half_extents = [1, 0, 1]",
+            "body die: half_extents must be three positive finite lengths, got [1.0, 0.0, 1.0]",
+        ),
+        (
+            "shape.half_space = { normal = [0, 0, 1], offset = 0.0 }",
+            "body die: a half space has no finite mass; it must be fixed",
+        ),
         (
             "shape.polyhedron = { vertices = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], faces = [[0,2,1],[0,1,3],[1,2,3]] }",
             "body die: ",
@@ -131,8 +149,14 @@ fn an_open_mesh_names_its_edges() {
 #[test]
 fn every_mistake_in_an_effect_has_its_message() {
     let cases = [
-        ("thruster = { body = \"dye\", point_body = [0,0,0], force_body = [1,0,0] }", "effect 1 (thruster): body names \"dye\", which is not in the scene; there is die"),
-        ("thruster = { body = \"die\", point_body = [0,0,0], force_body = [nan,0,0] }", "effect 1 (thruster): force_body must be three finite numbers, got [NaN, 0.0, 0.0]"),
+        (
+            "thruster = { body = \"dye\", point_body = [0,0,0], force_body = [1,0,0] }",
+            "effect 1 (thruster): body names \"dye\", which is not in the scene; there is die",
+        ),
+        (
+            "thruster = { body = \"die\", point_body = [0,0,0], force_body = [nan,0,0] }",
+            "effect 1 (thruster): force_body must be three finite numbers, got [NaN, 0.0, 0.0]",
+        ),
         (
             "thruster = { body = \"die\", point_body = [0,0,0], force_body = [1,0,0], schedule = [[1, 1], [0, 0]] }",
             "effect 1 (thruster): schedule must be sorted by rising time, got (1.0, 0.0)",
@@ -147,13 +171,31 @@ fn every_mistake_in_an_effect_has_its_message() {
         ),
         ("drag.linear = -1.0", "effect 1 (drag): linear must be a finite number ≥ 0, got -1.0"),
         ("drag = { quadratic = nan }", "effect 1 (drag): quadratic must be a finite number ≥ 0, got NaN"),
-        ("spring = { a = \"die\", b = \"die\", stiffness = 1.0 }", "effect 1 (spring): b must be another body than a, got \"die\""),
-        ("spring = { a = \"die\", stiffness = -1.0 }", "effect 1 (spring): stiffness must be a finite number ≥ 0, got -1.0"),
-        ("wrench = { body = \"die\", force = [1,0,0], phase = 1.0 }", "effect 1 (wrench): phase must be left out where no angular_frequency is given, got 1.0"),
-        ("wrench = { body = \"die\", angular_frequency = inf }", "effect 1 (wrench): angular_frequency must be a finite number, got inf"),
+        (
+            "spring = { a = \"die\", b = \"die\", stiffness = 1.0 }",
+            "effect 1 (spring): b must be another body than a, got \"die\"",
+        ),
+        (
+            "spring = { a = \"die\", stiffness = -1.0 }",
+            "effect 1 (spring): stiffness must be a finite number ≥ 0, got -1.0",
+        ),
+        (
+            "wrench = { body = \"die\", force = [1,0,0], phase = 1.0 }",
+            "effect 1 (wrench): phase must be left out where no angular_frequency is given, got 1.0",
+        ),
+        (
+            "wrench = { body = \"die\", angular_frequency = inf }",
+            "effect 1 (wrench): angular_frequency must be a finite number, got inf",
+        ),
         ("point_gravity.mu = -1.0", "effect 1 (point_gravity): mu must be a finite number ≥ 0, got -1.0"),
-        ("uniform_gravity.acceleration = [0, 0, inf]", "effect 1 (uniform_gravity): acceleration must be three finite numbers, got [0.0, 0.0, inf]"),
-        ("uniform_gravity = { acceleration = [0, 0, -9.8], bodies = [\"die\", \"die\"] }", "effect 1 (uniform_gravity): bodies must be different from each other, got \"die\""),
+        (
+            "uniform_gravity.acceleration = [0, 0, inf]",
+            "effect 1 (uniform_gravity): acceleration must be three finite numbers, got [0.0, 0.0, inf]",
+        ),
+        (
+            "uniform_gravity = { acceleration = [0, 0, -9.8], bodies = [\"die\", \"die\"] }",
+            "effect 1 (uniform_gravity): bodies must be different from each other, got \"die\"",
+        ),
     ];
     for (effect, message) in cases {
         assert_eq!(told(&good(&format!("[[effects]]\n{effect}"))), message);
@@ -179,8 +221,14 @@ fn every_mistake_in_the_run_has_its_message() {
     }
     assert_eq!(told("bodies = []"), "scene: there is no body in it");
     assert_eq!(told(&(good("") + &good(""))), "scene: body name must be one that no other body has, got \"die\"");
-    assert_eq!(told("[[bodies]]\nname = \" \"\nmass = 1.0\n"), "body: name must be a name that is not blank, got \" \"");
-    assert_eq!(told("[[bodies]]\nname = \"die\"\nmass = 1.0\n"), "body die: without a shape, mass and inertia must be given");
+    assert_eq!(
+        told("[[bodies]]\nname = \" \"\nmass = 1.0\n"),
+        "body: name must be a name that is not blank, got \" \""
+    );
+    assert_eq!(
+        told("[[bodies]]\nname = \"die\"\nmass = 1.0\n"),
+        "body die: without a shape, mass and inertia must be given"
+    );
 }
 
 #[test]
@@ -191,9 +239,17 @@ fn unknown_keys_are_shown_with_line_caret_and_the_allowed_names() {
         "scene: TOML parse error at line 3, column 1\n  |\n3 | mas = 1.0\n  | ^^^\nunknown field `mas`, expected one of `name`, `shape`, `density`, `mass`, `inertia`, `position`, `origin`, `orientation`, `velocity`, `angular_velocity`, `angular_velocity_body`, `friction`, `restitution`, `response`, `fixed`, `freedom`, `collides`"
     );
     let text = told("[[effects]]\ndragg.linear = 1.0\n");
-    assert!(text.contains("line 2, column 1") && text.contains("unknown variant `dragg`, expected one of `uniform_gravity`, `point_gravity`, `drag`"), "{text}");
+    assert!(
+        text.contains("line 2, column 1")
+            && text.contains("unknown variant `dragg`, expected one of `uniform_gravity`, `point_gravity`, `drag`"),
+        "{text}"
+    );
     let text = told("[run]\nmethod = \"rk5\"\n");
-    assert!(text.contains("2 | method = \"rk5\"") && text.contains("unknown method `rk5`, expected one of `auto`, `euler`, `heun`"), "{text}");
+    assert!(
+        text.contains("2 | method = \"rk5\"")
+            && text.contains("unknown method `rk5`, expected one of `auto`, `euler`, `heun`"),
+        "{text}"
+    );
     let text = told("[[bodies]]\nname = \"die\"\nshape.cuboid.half_extent = [1, 1, 1]\n");
     assert!(text.contains("unknown field `half_extent`, expected `half_extents`"), "{text}");
     let text = told("[[bodies]]\nname = \"die\"\nposition = [1, 1]\n");
@@ -201,7 +257,7 @@ fn unknown_keys_are_shown_with_line_caret_and_the_allowed_names() {
 
     let json = "{\n  \"bodies\": [\n    {\"name\": \"die\", \"mas\": 1}\n  ]\n}";
     let text = Scene::from_text(json, Format::Json).unwrap_err().to_string();
-    assert!(text.starts_with("scene: JSON parse error at line 3, column 26\n  |\n3 |     {\"name\": \"die\", \"mas\": 1}\n  |                          ^\nunknown field `mas`, expected one of `name`"), "{text}");
+    assert!(text.starts_with("scene: JSON parse error at line 3, column 25\n  |\n3 |     {\"name\": \"die\", \"mas\": 1}\n  |                         ^\nunknown field `mas`, expected one of `name`"), "{text}");
 }
 
 #[test]

@@ -107,14 +107,16 @@ fn an_elastic_tumbling_box_keeps_its_energy_through_many_bounces() {
     // never below the floor by more than the accepted gap, at any sample
     for sample in 0..run.times().len() {
         let motion = run.motions(sample)[1];
-        let lowest = Cuboid::new([0.1, 0.2, 0.15]).vertices().unwrap().iter().map(|v| motion.point(v).z).fold(9.0, f64::min);
+        let lowest =
+            Cuboid::new([0.1, 0.2, 0.15]).vertices().unwrap().iter().map(|v| motion.point(v).z).fold(9.0, f64::min);
         assert!(lowest > -1e-6, "{lowest:e} at {}", run.times()[sample]);
     }
 }
 
 #[test]
 fn a_body_that_sticks_stays_where_it_touched() {
-    let body = Body::new("dart", Cuboid::new([0.1, 0.05, 0.05])).mass(0.2).position([0.0, 0.0, 2.0]).velocity([1.0, 0.0, 0.0]);
+    let body =
+        Body::new("dart", Cuboid::new([0.1, 0.05, 0.05])).mass(0.2).position([0.0, 0.0, 2.0]).velocity([1.0, 0.0, 0.0]);
     let scene = floor_and(body.angular_velocity([0.0, 3.0, 0.0]).response(Response::Stick));
     let run = scene.run(0.0..2.0, &options()).unwrap();
     let [event] = run.events() else { panic!("{} events", run.events().len()) };
@@ -138,7 +140,11 @@ fn bounces_that_accumulate_end_in_a_named_error_with_the_run_so_far() {
 
     // a body that does not rebound at all rests at once
     let (failure, run) = broken(&floor_and(ball(0.0)), 4.0);
-    assert!(matches!(failure, Failure::AccumulatingImpacts(_)) && (run.end() - 1.0).abs() < 1e-2, "{failure} at {}", run.end());
+    assert!(
+        matches!(failure, Failure::AccumulatingImpacts(_)) && (run.end() - 1.0).abs() < 1e-2,
+        "{failure} at {}",
+        run.end()
+    );
 }
 
 #[test]
@@ -177,7 +183,8 @@ fn a_tilted_plane_is_a_plane() {
     let mut scene = Scene::new();
     // the offset is along the normal as given: (0, 0, 2) at 6 is a plane 3 up
     scene.add(Body::new("wall", HalfSpace::new([0.0, 0.0, 2.0], 6.0)).orientation(q).fixed()).unwrap();
-    let ball = Body::new("ball", Sphere::new(0.1)).mass(2.0).position(rotate(Vector3::new(0.0, 0.0, 8.1))).restitution(0.8);
+    let ball =
+        Body::new("ball", Sphere::new(0.1)).mass(2.0).position(rotate(Vector3::new(0.0, 0.0, 8.1))).restitution(0.8);
     scene.add(ball).unwrap();
     scene.add_effect(UniformGravity::new(rotate(Vector3::new(0.0, 0.0, -10.0))));
     let run = scene.run(0.0..2.0, &options()).unwrap();

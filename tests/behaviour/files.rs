@@ -28,7 +28,9 @@ fn every_file_of_the_examples_runs() {
         seen += 1;
         let scene = Scene::load(&path).unwrap();
         let span = scene.run.t_span.unwrap();
-        let run = scene.run([span[0], span[0] + 0.05 * (span[1] - span[0])], &RunOptions { t_eval: None, ..scene.run.clone() }).unwrap();
+        let run = scene
+            .run([span[0], span[0] + 0.05 * (span[1] - span[0])], &RunOptions { t_eval: None, ..scene.run.clone() })
+            .unwrap();
         assert_eq!(run.report().met, Some(true), "{}: {}", path.display(), run.report());
     }
     assert!(seen >= bryla::catalogue::NAMES.len());

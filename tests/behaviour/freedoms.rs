@@ -39,7 +39,11 @@ fn a_plane_at_any_angle_is_as_good() {
     let scene = |turned: bool| {
         let mut scene = Scene::new();
         let body = Body::new("hull", Cuboid::new([2.0, 1.0, 0.4])).mass(400.0);
-        let body = if turned { body.orientation(q).freedom(Freedom::planar(rotate([0.0, 0.0, 1.0]))) } else { body.freedom(Freedom::planar([0.0, 0.0, 1.0])) };
+        let body = if turned {
+            body.orientation(q).freedom(Freedom::planar(rotate([0.0, 0.0, 1.0])))
+        } else {
+            body.freedom(Freedom::planar([0.0, 0.0, 1.0]))
+        };
         scene.add(body).unwrap();
         scene.add_effect(Thruster::new("hull", [1.0, 0.5, 0.0], [300.0, 200.0, 0.0]));
         scene.add_effect(Drag::new(30.0, 2.0).angular(40.0, 3.0));
@@ -56,7 +60,13 @@ fn the_plane_reports_the_torque_that_holds_a_body_off_its_principal_axes() {
     // a hull turning about z with products of inertia: M = ω × I ω = ω² (−I_yz, I_xz, 0) must come from outside
     let inertia = [[2.0, 0.0, 0.3], [0.0, 3.0, -0.2], [0.3, -0.2, 4.0]];
     let mut scene = Scene::new();
-    scene.add(Body::with_inertia("hull", 5.0, inertia).freedom(Freedom::planar([0.0, 0.0, 1.0])).angular_velocity([0.0, 0.0, 2.0])).unwrap();
+    scene
+        .add(
+            Body::with_inertia("hull", 5.0, inertia)
+                .freedom(Freedom::planar([0.0, 0.0, 1.0]))
+                .angular_velocity([0.0, 0.0, 2.0]),
+        )
+        .unwrap();
     scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
     let run = run(&scene, 1.0, Method::Rk4, 1e-2);
     let reaction = run.reactions(0)[0];

@@ -57,7 +57,12 @@ fn modules_use_only_what_stands_before_them() {
                 let module: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
                 let Some(other) = rank(&module) else { continue };
                 found += 1;
-                assert!(other <= own, "{}: {first} uses {module}, which stands after it: {}", inside.display(), line.trim());
+                assert!(
+                    other <= own,
+                    "{}: {first} uses {module}, which stands after it: {}",
+                    inside.display(),
+                    line.trim()
+                );
             }
         }
     }

@@ -69,7 +69,9 @@ fn a_simulation_by_hand_is_a_run() {
     let mut hand = scene.compile(&by_hand()).unwrap().start(0.0).unwrap();
     hand.advance(0.5).unwrap();
     let (a, b) = (run.states(run.times().len() - 1)[1], hand.state("die").unwrap());
-    assert!(super::distance(&a, &b) < 1e-12);
+    // after a bounce the steps no longer meet the span's end, and the state by hand is read from the cubic
+    // of a step: error (ω h)⁴/384 with ω up to 200 rad/s
+    assert!(super::distance(&a, &b) < 5e-6);
 }
 
 #[test]
@@ -81,7 +83,8 @@ fn samples_are_where_they_were_asked_for() {
     assert_eq!(run.times(), times);
     for (sample, t) in times.iter().enumerate() {
         let exact = -0.5 * 9.81 * t * t + 0.5 * t;
-        assert!((run.states(sample)[0].position.z - exact).abs() < 1e-14, "{t}");
+        // rounding of up to 1000 steps of numbers up to 5
+        assert!((run.states(sample)[0].position.z - exact).abs() < 1000.0 * f64::EPSILON * 5.0, "{t}");
         assert_eq!(run.at(*t).unwrap(), run.states(sample));
     }
     let default = scene.run(0.0..1.0, &by_hand()).unwrap();
@@ -97,7 +100,8 @@ fn any_time_may_be_asked_for_afterwards() {
     let scene = free_body();
     let run = scene.run(0.0..1.0, &by_hand()).unwrap();
     let there = scene.run(0.0..0.4567, &by_hand()).unwrap();
-    let apart = bryla::math::quaternion::angle_between(&run.at(0.4567).unwrap()[0].orientation, &last(&there).orientation);
+    let apart =
+        bryla::math::quaternion::angle_between(&run.at(0.4567).unwrap()[0].orientation, &last(&there).orientation);
     assert!(apart < 1e-11, "{apart:e}");
     let message = run.at(1.5).unwrap_err().to_string();
     assert_eq!(message, "trajectory: time must be within 0 to 1, got 1.5");
