@@ -17,7 +17,7 @@ use crate::tolerance::STEP_REMAINDER;
 /// ACM Trans. Math. Softw. 17:533):
 ///
 /// ```text
-/// accepted where e ≤ 1;   h ← 0.9 h e^(−0.7/k) e₋^(0.4/k)        k the order of e, e₋ of the step before
+/// accepted where e ≤ 1;   h ← 0.9 h e^(−0.85/k) e₋^(0.2/k)        k the order of e, e₋ of the step before
 /// ```
 #[derive(Debug)]
 pub(super) struct Stepper<P: Problem, K> {
@@ -163,8 +163,8 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             if size <= 1.0 {
                 let size = size.max(LEAST_ERROR);
                 let factor = CAUTION
-                    * libm::pow(size, -0.7 / K::ERROR_ORDER)
-                    * libm::pow(self.last_error, 0.4 / K::ERROR_ORDER);
+                    * libm::pow(size, -0.85 / K::ERROR_ORDER)
+                    * libm::pow(self.last_error, 0.2 / K::ERROR_ORDER);
                 let next = h * factor.clamp(GROWTH.0, grow);
                 // a step cut short by the limit says nothing against the length proposed before it
                 self.proposal = if h < wanted { next.max(self.proposal) } else { next };

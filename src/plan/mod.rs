@@ -200,6 +200,18 @@ impl Plan {
         self.groups[group].members.iter().map(chart).collect()
     }
 
+    /// The flight of a group from its start at time `t` [s], for those who advance it themselves.
+    ///
+    /// # Errors
+    /// A group that the plan does not have.
+    pub fn flight(&self, group: usize, t: f64, control: Control) -> Result<Box<dyn Flight>> {
+        let Some(spec) = self.groups.get(group) else {
+            return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
+        };
+        let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
+        self.flight_for(group, t, control, &motions, &[])
+    }
+
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
     /// rest. Where the group may meet something, steps stay short enough for the search of contacts,
     /// which looks at the ends of a step.
