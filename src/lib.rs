@@ -3,7 +3,9 @@
 #![forbid(unsafe_code)]
 
 pub mod error;
+pub mod integrator;
 pub mod math;
+pub mod reference;
 pub mod tolerance;
 
 pub use error::{Error, Result};

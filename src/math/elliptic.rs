@@ -93,12 +93,11 @@ impl Landen {
         let (mut c, mut s) = ((cos - sin) * (cos + sin) / norm2, 2.0 * sin * cos / norm2);
         let mut half = 0.5;
         for &sigma in &self.sigma[..self.rounds] {
-            if sigma < f64::EPSILON * f64::EPSILON {
+            if sigma < 0.1 * f64::EPSILON {
                 break;
             }
             let (re, im) = (1.0 + sigma * c, sigma * s);
-            // beyond its first term the arc tangent of so small a σ is below rounding
-            v -= half * if sigma < SMALL_SIGMA { im } else { libm::atan(im / re) };
+            v -= half * small_arc_tangent(im / re, sigma);
             half *= 0.5;
 
             // y ← y² conj(1 + σ y)²/|1 + σ y|² = (y conj(1 + σ y)/|1 + σ y|)²
@@ -126,10 +125,11 @@ impl Landen {
         let mut factors = [1.0; LANDEN_ROUNDS];
         let mut yn = y;
         for (factor, &sigma) in factors.iter_mut().zip(&self.sigma[..self.rounds]) {
-            *factor = (1.0 + sigma / yn) / (1.0 + sigma * yn);
+            // (1 + σ/y)/(1 + σ y) in one division
+            *factor = (yn + sigma) / (yn * (1.0 + sigma * yn));
             yn *= yn * *factor;
-            if yn == 0.0 {
-                break;
+            if yn < f64::MIN_POSITIVE {
+                break; // what follows is 1 to rounding
             }
         }
         let mut root = 1.0;
@@ -144,8 +144,14 @@ impl Landen {
 /// `σ = 4 qₙ`: the square of what is below rounding. A larger one would cost digits there.
 const SIGMA_FLOOR: f64 = 1.0e-35;
 
-/// σ below which `atan σ = σ` and `1/(1 + σ) = 1 − σ` hold to rounding of 1 [-]: σ² < ε/4.
-const SMALL_SIGMA: f64 = 7.0e-9;
+/// `atan x` for `|x| ≤ σ/(1 − σ)`, by its series where σ is small: to `x¹⁵/15`, below 1e-19 of x.
+fn small_arc_tangent(x: f64, sigma: f64) -> f64 {
+    if sigma > 0.05 {
+        return libm::atan(x);
+    }
+    let z = x * x;
+    x * (1.0 - z * (1.0 / 3.0 - z * (0.2 - z * (1.0 / 7.0 - z * (1.0 / 9.0 - z * (1.0 / 11.0 - z / 13.0))))))
+}
 
 /// The complete elliptic integral of the first kind K(m), from `m` and its complement.
 ///

@@ -14,7 +14,7 @@ starts again with half the step. Only the standard library of Python is needed.
 """
 
 from fractions import Fraction
-from math import isqrt
+from math import ceil, isqrt
 from operator import mul
 
 
@@ -37,23 +37,21 @@ class Body:
         self.drag = Fraction(drag)
 
 
-def solve(body, times, order=48, bits=224, tail_bits=140, refine=1, perturb=None):
+def solve(body, times, order=32, bits=144, tail_bits=96, refine=1):
     """States at `times`: a list of (q, L), lists of Fractions, and the radians turned up to each."""
-    steps_per_radian = 4 * refine
+    steps_per_radian = 4 * Fraction(refine)
     for _ in range(12):
         try:
-            return _solve(body, times, order, bits, tail_bits, steps_per_radian, perturb)
+            return _solve(body, times, order, bits, tail_bits, steps_per_radian)
         except TooLong:
             steps_per_radian *= 2
     raise RuntimeError("no step is short enough")
 
 
-def _solve(body, times, order, bits, tail_bits, steps_per_radian, perturb):
+def _solve(body, times, order, bits, tail_bits, steps_per_radian):
     one = 1 << bits
     fix = lambda x: (x.numerator << bits) // x.denominator
     momentum = list(body.momentum)
-    if perturb is not None:
-        momentum = [a + b for a, b in zip(momentum, perturb)]
     l = [fix(x) for x in momentum]
     q = [fix(x) for x in body.orientation]
     length = isqrt(sum(x * x for x in q))
@@ -74,7 +72,7 @@ def _solve(body, times, order, bits, tail_bits, steps_per_radian, perturb):
     out, t, turned = [], Fraction(0), 0.0
     for end in times:
         end = Fraction(end)
-        count = -(-(abs(end - t) * rate * steps_per_radian).__ceil__() // 1) or 1
+        count = max(1, ceil(abs(end - t) * rate * steps_per_radian))
         h = (end - t) / count
         inverse = [fix(h / i) for i in body.moments]
         for _ in range(count):
@@ -159,8 +157,7 @@ def _step(body, fix, h, inverse, l0, q0, carried0, sine0, order, bits, tail_bits
     for v, unit in [(x, min(1.0, scale) if scale else 1.0) for x in l] + [(x, 1.0) for x in q]:
         if max(abs(v[order]), abs(v[order - 1])) > tail * unit:
             raise TooLong
-    total = lambda v: sum(v)
-    return [total(x) for x in l], [total(x) for x in q], [[total(x) for x in v] for v in carried], [total(x) for x in sine]
+    return [sum(x) for x in l], [sum(x) for x in q], [[sum(x) for x in v] for v in carried], [sum(x) for x in sine]
 
 
 def digits(x, n=32):

@@ -1,0 +1,3 @@
+//! Motions: closed forms where there is one.
+
+pub mod free_rotation;
