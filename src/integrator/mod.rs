@@ -19,6 +19,7 @@ use crate::state::{BodyMotion, Moment};
 mod dop853;
 mod euler;
 mod flight;
+pub mod free_rotation;
 mod heun;
 mod rk4;
 mod segment;
