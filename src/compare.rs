@@ -9,6 +9,8 @@ use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
 use crate::scene::{Record, RunOptions, Scene, Span};
+use crate::state::BodyState;
+use crate::reference;
 use crate::simulation::RunError;
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
@@ -105,46 +107,56 @@ const REFERENCE_HALVINGS: u32 = 6;
 /// Most steps of a reference run [-].
 const REFERENCE_STEPS: f64 = 4.0e6;
 
-/// What errors are measured against.
+/// What errors are measured against: states at the end of the span, and the length of their motion.
 struct Reference {
     name: String,
     error: f64,
-    run: Trajectory,
+    states: Vec<BodyState>,
+    length_scale: f64,
 }
 
 impl Reference {
+    fn new(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
+        let best = Self::finest(scene, span, steps, base)?;
+        let plan = scene.compile(base)?;
+        Ok(match reference::closed_form(&plan, span.end - span.start) {
+            Some(states) => Self { name: "the closed form".to_owned(), error: 0.0, states, ..best },
+            None => best,
+        })
+    }
+
     /// The finest affordable run of the method of highest order; its error by Richardson's rule from
     /// the run before.
-    fn new(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
+    fn finest(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
         let method = Method::ALL.iter().copied().max_by_key(|method| method.order()).unwrap_or(Method::Rk4);
-        let shortest = steps.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut step = REFERENCE_STEP * shortest;
-        let fine = |step: f64| {
+        let mut step = REFERENCE_STEP * steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let divisor = libm::pow(2.0, f64::from(method.order())) - 1.0;
+        let fine = |step: f64| -> Result<Self, RunError> {
             let plan = scene.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
-            plan.run(span)
+            let run = plan.run(span)?;
+            let name = format!("{method} with h = {} s", short(step));
+            let states = run.states(run.times().len() - 1).to_vec();
+            Ok(Self { name, error: f64::INFINITY, states, length_scale: run.report().length_scale })
         };
         let mut best = fine(2.0 * step)?;
-        let mut best_error = f64::INFINITY;
-        let divisor = libm::pow(2.0, f64::from(method.order())) - 1.0;
         for _ in 0..REFERENCE_HALVINGS {
-            let run = fine(step)?;
-            let last = run.times().len() - 1;
-            let error = difference(&run, &best, last) / divisor;
-            let better = error < best_error;
+            let mut run = fine(step)?;
+            run.error = difference(&run.states, &best.states, run.length_scale) / divisor;
+            let better = run.error < best.error;
             if better {
-                (best, best_error) = (run, error);
+                best = run;
             }
-            if !better || error < f64::EPSILON || (span.end - span.start) / step > 0.5 * REFERENCE_STEPS {
+            if !better || best.error < f64::EPSILON || (span.end - span.start) / step > 0.5 * REFERENCE_STEPS {
                 break;
             }
             step *= 0.5;
         }
-        let name = format!("{method} with h = {} s, own error about {}", short(best.report().step), short(best_error));
-        Ok(Self { name, error: best_error, run: best })
+        best.name += &format!(", own error about {}", short(best.error));
+        Ok(best)
     }
 
     fn error_of(&self, run: &Trajectory) -> f64 {
-        difference(&self.run, run, self.run.times().len() - 1)
+        difference(run.states(run.times().len() - 1), &self.states, self.length_scale)
     }
 }
 

@@ -19,6 +19,7 @@ pub mod integrator;
 pub mod mass;
 pub mod math;
 pub mod plan;
+pub mod reference;
 pub mod report;
 pub mod scene;
 pub mod shape;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::integrator::{Counts, Method};
+use crate::integrator::{Control, Counts, Method};
 use crate::plan::Plan;
 use crate::text::short;
 
@@ -22,8 +22,8 @@ pub struct Seconds {
 pub struct Report {
     /// Method of integration.
     pub method: Method,
-    /// Length of a step [s].
-    pub step: f64,
+    /// What decided the length of the steps; none where nothing was integrated.
+    pub control: Option<Control>,
     /// Tolerance asked for [-].
     pub tolerance: Option<f64>,
     /// Estimated error of the result [-]: the larger of position error over `length_scale` and
@@ -52,7 +52,7 @@ impl Report {
     pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             method: plan.method(),
-            step: plan.options().step.unwrap_or_default(),
+            control: None,
             tolerance: plan.tolerance(),
             error_estimate: None,
             estimated_by: "not estimated",
@@ -69,7 +69,12 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "Report: {}, h = {} s", self.method, short(self.step))?;
+        write!(f, "Report: {}", self.method)?;
+        match self.control {
+            Some(Control::Step(step)) => writeln!(f, ", h = {} s", short(step))?,
+            Some(Control::Error(limits)) => writeln!(f, ", error of a step ≤ {}", short(limits.local))?,
+            None => writeln!(f)?,
+        }
         match self.error_estimate {
             Some(error) => write!(f, "  error      {} (estimate: {})", short(error), self.estimated_by)?,
             None => write!(f, "  error      {}", self.estimated_by)?,
@@ -88,6 +93,9 @@ impl fmt::Display for Report {
             short(self.counts.orientation_drift)
         )?;
         write!(f, "  work       {} steps, {} evaluations", self.counts.steps, self.counts.evaluations)?;
+        if self.counts.rejected > 0 {
+            write!(f, ", {} steps refused", self.counts.rejected)?;
+        }
         if self.impacts > 0 {
             write!(f, ", {} impacts ({} rounds of the finder)", self.impacts, self.impact_iterations)?;
         }

@@ -157,6 +157,11 @@ impl Trajectory {
         Self { plan, times, states, phases: Vec::new(), events: Vec::new(), report, end }
     }
 
+    /// Whether a step up to `end` [s] is looked into: its motion is kept, or holds the sample at `cursor`.
+    pub(crate) fn looks_into(&self, cursor: usize, end: f64) -> bool {
+        self.plan.options().record == Record::Dense || self.times.get(cursor).is_some_and(|&t| t < end)
+    }
+
     /// Keeps the samples of one step, and its motion where that is asked for. `cursor` is the
     /// group's next sample.
     pub(crate) fn record(

@@ -1,6 +1,6 @@
 //! A body that turns about an axis at rest: a wheel, a pendulum.
 
-use super::direction;
+use super::{Scales, direction};
 use crate::error::{Error, Result};
 use crate::math::{Quaternion, Vector3, quaternion};
 use crate::state::{BodyMotion, BodyState, Load};
@@ -79,13 +79,15 @@ impl Axle {
     }
 
     #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn project(&self, _y: &mut [f64]) -> f64 {
+    pub(super) fn correction(&self, _y: &[f64], dy: &mut [f64]) -> f64 {
+        dy[..2].fill(0.0);
         0.0
     }
 
-    #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn orientation_error(&self, _y: &[f64]) -> f64 {
-        0.0
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        let least = 1.0 / (self.inv_moment * scales.time);
+        e[0].abs().max(e[1].abs() / y0[1].abs().max(y1[1].abs()).max(least))
     }
 
     /// Torque about the axle [N·m].

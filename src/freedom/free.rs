@@ -1,5 +1,6 @@
 //! A free body: Y = (x, P, q, L), lecture (24).
 
+use super::Scales;
 use super::spin::{Form, Spin, put, vector};
 use crate::state::{BodyMotion, BodyState, Load};
 
@@ -12,7 +13,7 @@ pub struct Free {
 
 impl Free {
     pub(super) fn new(form: Form, motion: &BodyMotion) -> Self {
-        Self { spin: Spin { form, inv_inertia: super::inverse(&motion.inertia_body) }, inv_mass: 1.0 / motion.mass }
+        Self { spin: Spin::new(form, motion.inertia_body), inv_mass: 1.0 / motion.mass }
     }
 
     pub(super) fn dimension(&self) -> usize {
@@ -47,11 +48,16 @@ impl Free {
     }
 
     #[inline]
-    pub(super) fn project(&self, y: &mut [f64]) -> f64 {
-        self.spin.project(&mut y[6..])
+    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+        dy[..6].fill(0.0);
+        self.spin.correction(&y[6..], &mut dy[6..])
     }
 
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        self.spin.orientation_error(&y[6..])
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        let place = vector(e).norm() / scales.length;
+        let least = scales.length / (self.inv_mass * scales.time);
+        let momentum = vector(&e[3..]).norm() / vector(&y0[3..]).norm().max(vector(&y1[3..]).norm()).max(least);
+        place.max(momentum).max(self.spin.error_size(&y0[6..], &y1[6..], &e[6..], scales))
     }
 }

@@ -95,6 +95,16 @@ impl Freedom {
     }
 }
 
+/// What errors of a motion are measured by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Length that positions are measured by [m].
+    pub length: f64,
+    /// Time that the motion takes [s]. Momenta below `m length/time` and `I/time` do not matter to it:
+    /// errors of smaller ones are measured by these.
+    pub time: f64,
+}
+
 /// A body's coordinates: how its state is written as the numbers that are integrated, and back.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Chart {
@@ -166,16 +176,18 @@ impl Chart {
         dispatch!(self, c => c.rate_unloaded(y, dy), ());
     }
 
-    /// Puts the orientation back on its sphere (or R on the rotations), lecture §4, and returns how
-    /// far it had strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
+    /// What puts the orientation back on its sphere (or R on the rotations), lecture §4, to be added
+    /// to `y`; returns how far it has strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
     #[inline]
-    pub fn project(&self, y: &mut [f64]) -> f64 {
-        dispatch!(self, c => c.project(y), 0.0)
+    pub fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+        dispatch!(self, c => c.correction(y, dy), 0.0)
     }
 
-    /// How far the orientation is off its sphere, as it stands [-].
-    pub fn orientation_error(&self, y: &[f64]) -> f64 {
-        dispatch!(self, c => c.orientation_error(y), 0.0)
+    /// Size of an error `e` of a step from `y0` to `y1` [-]: of the position over a length, of
+    /// the orientation in radians, of momenta over their own size.
+    #[inline]
+    pub fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        dispatch!(self, c => c.error_size(y0, y1, e, scales), 0.0)
     }
 
     /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m].

@@ -1,5 +1,6 @@
 //! A body that turns about a point at rest: a top.
 
+use super::Scales;
 use super::spin::{Form, Spin};
 use crate::error::{Error, Result};
 use crate::math::Vector3;
@@ -33,7 +34,7 @@ impl Pivot {
             return Err(Error::value(place, "velocity", allowed, motion.velocity.as_slice()));
         }
         let inertia = super::about_point(motion, &arm_body);
-        Ok(Self { spin: Spin { form, inv_inertia: super::inverse(&inertia) }, pivot, arm_body })
+        Ok(Self { spin: Spin::new(form, inertia), pivot, arm_body })
     }
 
     pub(super) fn dimension(&self) -> usize {
@@ -66,12 +67,13 @@ impl Pivot {
     }
 
     #[inline]
-    pub(super) fn project(&self, y: &mut [f64]) -> f64 {
-        self.spin.project(y)
+    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+        self.spin.correction(y, dy)
     }
 
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        self.spin.orientation_error(y)
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        self.spin.error_size(y0, y1, e, scales)
     }
 
     pub(super) fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {
@@ -80,7 +82,7 @@ impl Pivot {
         let w = motion.angular_velocity_body();
         let inertia = super::about_point(motion, &self.arm_body);
         let torque = motion.rotation.tr_mul(&(load.torque + r.cross(&load.force)));
-        let alpha = motion.rotation * (self.spin.inv_inertia * (torque - w.cross(&(inertia * w))));
+        let alpha = motion.rotation * self.spin.over_inertia(&(torque - w.cross(&(inertia * w))));
         let a = alpha.cross(&r) + motion.angular_velocity.cross(&motion.velocity);
         super::missing_load(motion, load, &a, &alpha)
     }

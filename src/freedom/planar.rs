@@ -1,6 +1,6 @@
 //! A body that moves in a plane: the lecture's hovercraft (§6).
 
-use super::direction;
+use super::{Scales, direction};
 use super::spin::{put, vector};
 use crate::error::{Error, Result};
 use crate::math::{Quaternion, Vector3, quaternion};
@@ -90,13 +90,19 @@ impl Planar {
     }
 
     #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn project(&self, _y: &mut [f64]) -> f64 {
+    pub(super) fn correction(&self, _y: &[f64], dy: &mut [f64]) -> f64 {
+        dy[..6].fill(0.0);
         0.0
     }
 
-    #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn orientation_error(&self, _y: &[f64]) -> f64 {
-        0.0
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        let length = |v: &[f64]| (v[0] * v[0] + v[1] * v[1]).sqrt();
+        let least = scales.length / (self.inv_mass * scales.time);
+        let momentum = length(&e[3..]) / length(&y0[3..]).max(length(&y1[3..])).max(least);
+        let least = 1.0 / (self.inv_moment * scales.time);
+        let spin = e[5].abs() / y0[5].abs().max(y1[5].abs()).max(least);
+        (length(e) / scales.length).max(momentum).max(e[2].abs()).max(spin)
     }
 
     pub(super) fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {

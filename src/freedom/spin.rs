@@ -1,5 +1,7 @@
 //! Orientation and angular momentum, in each of the forms the library compares.
 
+use super::Scales;
+use crate::mass::MassProperties;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
 
 /// How orientation and angular momentum are written as numbers.
@@ -9,7 +11,7 @@ pub enum Form {
     WorldQuaternion,
     /// The lecture's R and L in world axes: `dR/dt = Ω R`, `dL/dt = M`.
     WorldMatrix,
-    /// q and L in body axes: `dq/dt = ½ q [0, ω]`, `dL/dt = L × ω + M`.
+    /// q and L in the body's principal axes: `dq/dt = ½ q [0, ω]`, `dL/dt = L × ω + M`, `ω_i = L_i/I_i`.
     ///
     /// A steady spin is an exact fixed point of this form, and the error of a large component of L
     /// never leaks into a small one.
@@ -19,9 +21,13 @@ pub enum Form {
 /// Rotation about a point: orientation, then angular momentum about that point.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Spin {
-    pub(super) form: Form,
+    form: Form,
     /// Inverse of the inertia about the point, body axes [1/(kg·m²)].
-    pub(super) inv_inertia: Matrix3,
+    inv_inertia: Matrix3,
+    /// Inverses of the principal moments about the point [1/(kg·m²)].
+    inv_moments: Vector3,
+    /// From principal to body axes, where they differ.
+    axes: Option<(Quaternion, Matrix3)>,
 }
 
 /// Reads three numbers as a vector.
@@ -60,6 +66,19 @@ fn put_matrix(y: &mut [f64], r: &Matrix3) {
 }
 
 impl Spin {
+    /// Rotation of a body with this inertia about the point, body axes [kg·m²].
+    pub(super) fn new(form: Form, inertia: Matrix3) -> Self {
+        let off_diagonal = [inertia[(0, 1)], inertia[(0, 2)], inertia[(1, 2)]];
+        let inv_inertia = super::inverse(&inertia);
+        if off_diagonal == [0.0; 3] {
+            let inv_moments = inertia.diagonal().map(|moment| 1.0 / moment);
+            return Self { form, inv_inertia, inv_moments, axes: None };
+        }
+        let principal = MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia }.principal();
+        let axes = Some((quaternion::from_matrix(&principal.axes), principal.axes));
+        Self { form, inv_inertia, inv_moments: principal.moments.map(|moment| 1.0 / moment), axes }
+    }
+
     /// Numbers of the orientation.
     #[inline]
     pub(super) fn orientation_dimension(&self) -> usize {
@@ -73,14 +92,20 @@ impl Spin {
 
     /// From the orientation and the angular momentum about the point, world axes.
     pub(super) fn encode(&self, q: &Quaternion, momentum: &Vector3, y: &mut [f64]) {
-        let n = self.orientation_dimension();
         match self.form {
-            Form::WorldMatrix => put_matrix(y, &quaternion::to_matrix(q)),
-            _ => put_quaternion(y, q),
-        }
-        match self.form {
-            Form::Body => put(&mut y[n..], &quaternion::to_matrix(q).tr_mul(momentum)),
-            _ => put(&mut y[n..], momentum),
+            Form::WorldQuaternion => {
+                put_quaternion(y, q);
+                put(&mut y[4..], momentum);
+            }
+            Form::WorldMatrix => {
+                put_matrix(y, &quaternion::to_matrix(q));
+                put(&mut y[9..], momentum);
+            }
+            Form::Body => {
+                let q = self.axes.as_ref().map_or(*q, |(axes, _)| q * axes);
+                put_quaternion(y, &q);
+                put(&mut y[4..], &quaternion::to_matrix(&q).tr_mul(momentum));
+            }
         }
     }
 
@@ -100,9 +125,18 @@ impl Spin {
             Form::Body => {
                 let q = quaternion_at(y);
                 let r = quaternion::to_matrix(&q);
-                (quaternion::normalized(&q), r, r * (self.inv_inertia * vector(&y[4..])))
+                let w = r * self.inv_moments.component_mul(&vector(&y[4..]));
+                match &self.axes {
+                    None => (quaternion::normalized(&q), r, w),
+                    Some((axes, matrix)) => (quaternion::normalized(&q) * axes.conjugate(), r * matrix.transpose(), w),
+                }
             }
         }
+    }
+
+    /// `I⁻¹ v`, body axes.
+    pub(super) fn over_inertia(&self, v: &Vector3) -> Vector3 {
+        self.inv_inertia * v
     }
 
     /// `ω = R I⁻¹ Rᵀ L`, lecture (20).
@@ -123,7 +157,11 @@ impl Spin {
                 put_matrix(dy, &(rotation::cross_matrix(w) * matrix_at(y)));
                 put(&mut dy[9..], torque);
             }
-            Form::Body => self.rate_body(y, &r.tr_mul(torque), dy),
+            Form::Body => {
+                let torque_body = r.tr_mul(torque);
+                let torque = self.axes.as_ref().map_or(torque_body, |(_, axes)| axes.tr_mul(&torque_body));
+                self.rate_body(y, &torque, dy);
+            }
         }
     }
 
@@ -138,34 +176,46 @@ impl Spin {
         }
     }
 
-    /// Euler's equations: torque in body axes.
+    /// Euler's equations: torque in principal axes.
     #[inline]
-    fn rate_body(&self, y: &[f64], torque_body: &Vector3, dy: &mut [f64]) {
+    fn rate_body(&self, y: &[f64], torque: &Vector3, dy: &mut [f64]) {
         let momentum = vector(&y[4..]);
-        let w = self.inv_inertia * momentum;
+        let w = self.inv_moments.component_mul(&momentum);
         put_quaternion(dy, &quaternion::rate_body(&w, &quaternion_at(y)));
-        put(&mut dy[4..], &(momentum.cross(&w) + torque_body));
+        put(&mut dy[4..], &(momentum.cross(&w) + torque));
     }
 
-    /// One division by the length, or one polar factor; returns how far it had strayed.
+    /// What leads the orientation back to its sphere; returns how far it has strayed.
+    ///
+    /// ```text
+    /// Δq = q (1 − |q|)/|q|        ΔR = polar factor of R − R
+    /// ```
     #[inline]
-    pub(super) fn project(&self, y: &mut [f64]) -> f64 {
+    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
         if self.form == Form::WorldMatrix {
             let r = matrix_at(y);
-            put_matrix(y, &rotation::polar_factor(&r));
+            put_matrix(dy, &(rotation::polar_factor(&r) - r));
+            dy[9..12].fill(0.0);
             rotation::orthogonality_error(&r)
         } else {
             let q = quaternion_at(y);
             let length = q.norm_squared().sqrt();
-            put_quaternion(y, &(q / length));
+            put_quaternion(dy, &(q * ((1.0 - length) / length)));
+            dy[4..7].fill(0.0);
             (length - 1.0).abs()
         }
     }
 
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        match self.form {
-            Form::WorldMatrix => rotation::orthogonality_error(&matrix_at(y)),
-            _ => (quaternion_at(y).norm() - 1.0).abs(),
-        }
+    /// Size of an error: of the orientation in radians, of L over its own size, or over `I/time`.
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        let n = self.orientation_dimension();
+        let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+
+        // a rotation by δ changes q by δ/2, and R by √2 δ
+        let angle = length(&e[..n]) * if n == 9 { std::f64::consts::FRAC_1_SQRT_2 } else { 2.0 };
+        let least = 1.0 / (self.inv_moments.amax() * scales.time);
+        let momentum = length(&y0[n..n + 3]).max(length(&y1[n..n + 3])).max(least);
+        angle.max(length(&e[n..n + 3]) / momentum)
     }
 }

@@ -13,6 +13,7 @@ use crate::state::Moment;
 pub(super) const ORDER: u32 = 1;
 pub(super) const EVALUATIONS: u32 = 1;
 pub(super) const BODY_AXES: bool = false;
+pub(super) const ERROR_ORDER: f64 = 0.0;
 
 #[derive(Debug)]
 pub(super) struct Kernel<Y>(std::marker::PhantomData<Y>);
@@ -25,7 +26,7 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
     }
 
     #[inline]
-    fn step<P: Problem<Y = Y>>(&mut self, _problem: &mut P, _at: Moment, y: &mut Y, k1: &Y, h: f64) {
-        y.add_scaled(h, k1);
+    fn step<P: Problem<Y = Y>>(&mut self, _problem: &mut P, _at: Moment, _y: &Y, k0: &Y, h: f64, dy: &mut Y) {
+        dy.set_increment(h, [(1.0, k0)]);
     }
 }

@@ -39,6 +39,9 @@ pub enum FlightError {
     /// A user's function gave up.
     #[error("a user effect failed: {0}")]
     UserEffect(String),
+    /// Error control wants ever shorter steps: the loads change too abruptly for the tolerance.
+    #[error("no step is short enough for the tolerance, not even {0:e} s")]
+    StepTooShort(f64),
 }
 
 /// The motion of a group of bodies between contacts.
@@ -46,39 +49,51 @@ pub trait Flight: Debug + Send {
     /// How far the motion is known [s].
     fn front(&self) -> f64;
 
-    /// Takes one step, which ends at `limit` [s] or before it.
+    /// Takes one step, which ends at `limit` [s] or before it. Of the motion only the front is known
+    /// then; [`interpolate`](Self::interpolate) makes the rest known.
     ///
     /// # Errors
-    /// The state is not finite any more, or a user's function failed. The last good segment stays.
+    /// The state is not finite any more, no step is short enough, or a user's function failed.
     fn advance(&mut self, limit: f64) -> Result<(), FlightError>;
 
-    /// The motion of the last step, as numbers.
+    /// Makes the motion within the last step known.
+    ///
+    /// # Errors
+    /// The motion is not finite, though both of its ends are.
+    fn interpolate(&mut self) -> Result<(), FlightError>;
+
+    /// The motion of the last step that was interpolated, as numbers.
     fn segment(&self) -> &Segment;
 
-    /// The motion of every body at `t` [s], read from the last step's segment; before the first
-    /// step, at the start.
+    /// The motion of every body at `t` [s]: at the front, or within the last step, interpolated.
     fn at(&self, t: f64, motions: &mut [BodyMotion]);
 
     /// The same at a time from the start of the last step [s], which no rounding of large times blurs.
     fn at_offset(&self, offset: f64, motions: &mut [BodyMotion]);
 
-    /// Cuts the last step at a time from its start [s]: the front is there now.
+    /// Cuts the last step, interpolated, at a time from its start [s]: the front is there now.
     fn cut(&mut self, offset: f64);
 
     /// Sets the front's clock and the start of its interval without switches [s].
     fn set_clock(&mut self, time: Time, since: f64);
 
     /// Marks that the interval up to the front is over: what follows sees the other side of a switch.
-    fn pass_switch(&mut self);
+    ///
+    /// # Errors
+    /// As [`interpolate`](Self::interpolate).
+    fn pass_switch(&mut self) -> Result<(), FlightError>;
 
     /// What has been done so far.
     fn counts(&self) -> &Counts;
 
-    /// The front as it is kept, for a saved state: time, start of the smooth interval, numbers.
-    fn saved_front(&self) -> (Time, f64, &[f64]);
+    /// The front's instant, and the start of its interval without switches [s].
+    fn clock(&self) -> (Time, f64);
+
+    /// The front as it is kept in a saved state.
+    fn saved_front(&self) -> Front<Vec<f64>>;
 
     /// Goes on from a saved front.
-    fn resume(&mut self, time: Time, since: f64, y: &[f64], segment: Segment, counts: Counts);
+    fn resume(&mut self, front: &Front<Vec<f64>>, segment: Segment, counts: Counts);
 }
 
 /// A flight by numerical integration.
@@ -89,7 +104,9 @@ pub struct Integration<P: Problem> {
     front: Front<P::Y>,
     /// Where the last step began.
     start: Time,
+    /// The last step that was interpolated, and whether a later one waits for it.
     segment: Segment,
+    stale: bool,
     counts: Counts,
 }
 
@@ -98,8 +115,9 @@ impl<P: Problem> Integration<P> {
     pub fn new(problem: P, integrator: Box<dyn Integrator<P>>, t: f64, y: &[f64]) -> Self {
         let mut start = P::Y::zeros(y.len());
         start.as_mut().copy_from_slice(y);
-        let front = Front { time: Time::new(t), since: t, y: start };
-        Self { problem, integrator, front, start: Time::new(t), segment: Segment::default(), counts: Counts::default() }
+        let front = Front { time: Time::new(t), since: t, y: start, rest: P::Y::zeros(y.len()) };
+        let (segment, counts) = (Segment::default(), Counts::default());
+        Self { problem, integrator, front, start: Time::new(t), segment, stale: false, counts }
     }
 }
 
@@ -109,14 +127,29 @@ impl<P: Problem> Flight for Integration<P> {
     }
 
     fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
-        let Self { problem, integrator, front, start, segment, counts } = self;
+        let Self { problem, integrator, front, start, counts, .. } = self;
         *start = front.time;
-        integrator.advance(problem, front, limit, segment, counts);
-        // the whole motion of the step, without branches so that it costs a few nanoseconds
-        if segment.coefficients.iter().fold(true, |finite, c| finite & c.is_finite()) {
+        self.stale = true;
+        let taken = integrator.advance(problem, front, limit, counts);
+        if taken.is_ok() && front.y.as_ref().iter().sum::<f64>().is_finite() {
             return Ok(());
         }
-        Err(problem.take_failure().map_or(FlightError::NotFinite, FlightError::UserEffect))
+        match problem.take_failure() {
+            Some(message) => Err(FlightError::UserEffect(message)),
+            None => Err(taken.err().unwrap_or(FlightError::NotFinite)),
+        }
+    }
+
+    fn interpolate(&mut self) -> Result<(), FlightError> {
+        if !std::mem::take(&mut self.stale) {
+            return Ok(());
+        }
+        let Self { problem, integrator, front, segment, counts, .. } = self;
+        integrator.interpolate(problem, front, segment, counts);
+
+        // without branches, so that it costs a few nanoseconds
+        let finite = segment.coefficients.iter().fold(true, |finite, c| finite & c.is_finite());
+        if finite { Ok(()) } else { Err(FlightError::NotFinite) }
     }
 
     fn segment(&self) -> &Segment {
@@ -139,6 +172,7 @@ impl<P: Problem> Flight for Integration<P> {
 
     fn cut(&mut self, offset: f64) {
         self.segment.at_offset(offset, self.front.y.as_mut());
+        self.front.rest.as_mut().fill(0.0);
         self.front.time = self.start + offset;
         self.segment.end = self.front.time.value;
         self.integrator.restart();
@@ -149,23 +183,32 @@ impl<P: Problem> Flight for Integration<P> {
         self.front.since = since;
     }
 
-    fn pass_switch(&mut self) {
+    fn pass_switch(&mut self) -> Result<(), FlightError> {
+        // what lies behind the switch is seen from its own side
+        self.interpolate()?;
         self.front.since = self.front.time.value;
         self.integrator.restart();
+        Ok(())
     }
 
     fn counts(&self) -> &Counts {
         &self.counts
     }
 
-    fn saved_front(&self) -> (Time, f64, &[f64]) {
-        (self.front.time, self.front.since, self.front.y.as_ref())
+    fn clock(&self) -> (Time, f64) {
+        (self.front.time, self.front.since)
     }
 
-    fn resume(&mut self, time: Time, since: f64, y: &[f64], segment: Segment, counts: Counts) {
-        self.set_clock(time, since);
+    fn saved_front(&self) -> Front<Vec<f64>> {
+        let Front { time, since, y, rest } = &self.front;
+        Front { time: *time, since: *since, y: y.as_ref().to_vec(), rest: rest.as_ref().to_vec() }
+    }
+
+    fn resume(&mut self, front: &Front<Vec<f64>>, segment: Segment, counts: Counts) {
+        self.set_clock(front.time, front.since);
         self.start = Time::new(segment.start);
-        self.front.y.as_mut().copy_from_slice(y);
+        self.front.y.as_mut().copy_from_slice(&front.y);
+        self.front.rest.as_mut().copy_from_slice(&front.rest);
         self.segment = segment;
         self.counts = counts;
         self.integrator.restart();

@@ -1,7 +1,8 @@
 //! Methods that advance Y′ = f(t, Y): one method, one file, one line in the list below.
 //!
-//! A method sees a [`Problem`], never bodies or effects. What it computes is a [`Segment`] a step:
-//! a polynomial in time that **is** the motion between the step's ends. Samples, events and
+//! A method sees a [`Problem`], never bodies or effects. It takes steps, of a given length or as long
+//! as an allowed error permits ([`Control`]). Where someone looks between the ends of a step, it
+//! writes a [`Segment`]: a polynomial in time that **is** the motion there. Samples, events and
 //! contacts all read that same polynomial.
 //!
 //! ```text
@@ -11,17 +12,20 @@
 use std::fmt::Debug;
 
 use crate::error::{Error, Result};
-use crate::freedom::Form;
-use crate::math::sum::Time;
+use crate::freedom::{Form, Scales};
+use crate::math::sum::{Time, two_sum};
 use crate::state::{BodyMotion, Moment};
 
+mod dop853;
 mod euler;
-mod fixed_step;
 mod flight;
+pub mod free_rotation;
 mod heun;
 mod rk4;
 mod segment;
 mod semi_implicit_euler;
+mod stepper;
+mod tsit5;
 
 pub use flight::{Counts, Flight, FlightError, Integration};
 pub use segment::Segment;
@@ -45,6 +49,40 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     fn set_sum(&mut self, y: &Self, a: f64, k: &Self) {
         for ((s, y), k) in self.as_mut().iter_mut().zip(y.as_ref()).zip(k.as_ref()) {
             *s = y + a * k;
+        }
+    }
+
+    /// `self = y + h Σ a_j k_j`
+    #[inline]
+    fn set_combination<const N: usize>(&mut self, y: &Self, h: f64, terms: [(f64, &Self); N]) {
+        let terms = terms.map(|(a, k)| (a, k.as_ref()));
+        for (i, (s, y)) in self.as_mut().iter_mut().zip(y.as_ref()).enumerate() {
+            let mut sum = terms[0].0 * terms[0].1[i];
+            for (a, k) in &terms[1..] {
+                sum += a * k[i];
+            }
+            *s = y + h * sum;
+        }
+    }
+
+    /// `self = h Σ a_j k_j`
+    #[inline]
+    fn set_increment<const N: usize>(&mut self, h: f64, terms: [(f64, &Self); N]) {
+        let terms = terms.map(|(a, k)| (a, k.as_ref()));
+        for (i, s) in self.as_mut().iter_mut().enumerate() {
+            let mut sum = terms[0].0 * terms[0].1[i];
+            for (a, k) in &terms[1..] {
+                sum += a * k[i];
+            }
+            *s = h * sum;
+        }
+    }
+
+    /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
+    #[inline]
+    fn add_compensated(&mut self, dy: &Self, rest: &mut Self) {
+        for ((y, dy), rest) in self.as_mut().iter_mut().zip(dy.as_ref()).zip(rest.as_mut()) {
+            (*y, *rest) = two_sum(*y, dy + *rest);
         }
     }
 }
@@ -79,11 +117,13 @@ pub trait Problem: Debug + Send {
     /// The part of f that is left when all loads are 0; `f − drift` is the kick of a splitting.
     fn drift(&mut self, y: &Self::Y, dy: &mut Self::Y);
 
-    /// Puts orientations back on their sphere (lecture §4); returns how far the worst had strayed [-].
-    fn project(&mut self, y: &mut Self::Y) -> f64;
+    /// What puts orientations back on their sphere (lecture §4), to be added to `y`; returns how far
+    /// the worst has strayed [-].
+    fn correction(&self, y: &Self::Y, dy: &mut Self::Y) -> f64;
 
-    /// How far the worst orientation is off its sphere, as it stands [-].
-    fn orientation_error(&self, y: &Self::Y) -> f64;
+    /// Size of an error `e` of a step from `y0` to `y1` [-]: positions over a length, orientations in
+    /// radians, momenta over their own size; the largest of all bodies.
+    fn error_size(&self, y0: &Self::Y, y1: &Self::Y, e: &Self::Y, scales: &Scales) -> f64;
 
     /// The motion of every body, read from the numbers.
     fn decode(&self, y: &[f64], motions: &mut [BodyMotion]);
@@ -92,8 +132,29 @@ pub trait Problem: Debug + Send {
     fn take_failure(&mut self) -> Option<String>;
 }
 
+/// What decides the length of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// Every step is this long [s].
+    Step(f64),
+    /// Every step is as long as its error allows.
+    Error(Limits),
+}
+
+/// How much error a step may make.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest error of a step [-].
+    pub local: f64,
+    /// What it is measured by.
+    pub scales: Scales,
+    /// Longest step [s].
+    pub longest: f64,
+}
+
 /// Where an integration stands.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Front<Y> {
     /// The instant, with its rounding error kept.
     pub time: Time,
@@ -101,6 +162,8 @@ pub struct Front<Y> {
     pub since: f64,
     /// The numbers there.
     pub y: Y,
+    /// What rounding dropped of them.
+    pub rest: Y,
 }
 
 impl<Y> Front<Y> {
@@ -112,15 +175,20 @@ impl<Y> Front<Y> {
 
 /// Advances a problem, a step at a call.
 pub trait Integrator<P: Problem>: Debug + Send {
-    /// Takes one step, which ends at `limit` or before it, and writes its motion into `segment`.
+    /// Takes one step, which ends at `limit` or before it.
+    ///
+    /// # Errors
+    /// No step is short enough for the error allowed.
     fn advance(
         &mut self,
         problem: &mut P,
         front: &mut Front<P::Y>,
         limit: f64,
-        segment: &mut Segment,
         counts: &mut Counts,
-    );
+    ) -> Result<(), FlightError>;
+
+    /// Writes the motion within the last step, which ended at `front`.
+    fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts);
 
     /// Forgets what it knew of the path: the front has jumped.
     fn restart(&mut self);
@@ -169,11 +237,18 @@ macro_rules! methods {
                 }
             }
 
-            /// The method for steps of `step` [s].
-            pub(crate) fn integrator<P: Problem + 'static>(self, problem: &P, step: f64, projection: bool) -> Box<dyn Integrator<P>> {
+            /// Whether it estimates the error of a step, so that [`Control::Error`] can choose the length.
+            pub fn controls_error(self) -> bool {
+                match self {
+                    $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
+                }
+            }
+
+            /// The method on a problem.
+            pub fn integrator<P: Problem + 'static>(self, problem: &P, control: Control, projection: bool) -> Box<dyn Integrator<P>> {
                 let n = problem.dimension();
                 match self {
-                    $(Self::$variant => Box::new(fixed_step::FixedStep::<P, $module::Kernel<P::Y>>::new(n, step, projection)),)*
+                    $(Self::$variant => Box::new(stepper::Stepper::<P, $module::Kernel<P::Y>>::new(n, control, projection)),)*
                 }
             }
         }
@@ -189,6 +264,10 @@ methods! {
     SemiImplicitEuler => semi_implicit_euler,
     /// The classical Runge–Kutta method, order 4, with the angular momentum in body axes.
     Rk4 => rk4,
+    /// Tsitouras' method, order 5, with error control.
+    Tsit5 => tsit5,
+    /// Dormand's and Prince's method, order 8, with error control.
+    Dop853 => dop853,
 }
 
 impl Method {
@@ -219,13 +298,38 @@ impl std::str::FromStr for Method {
     }
 }
 
-/// The step of a method with a fixed step; it owns the vectors it works with.
+/// A step that was taken: its start and length, and state and slope at both ends.
+#[derive(Debug)]
+struct Step<'a, Y> {
+    at: Moment,
+    h: f64,
+    y0: &'a Y,
+    k0: &'a Y,
+    y1: &'a Y,
+    k1: &'a Y,
+}
+
+/// What makes one method different from another; it owns the vectors it works with.
 trait Kernel<Y: StateVector>: Debug + Send {
-    /// Evaluations of f in one step.
+    /// Evaluations of f in one step, that of `k0` included.
     const EVALUATIONS: u32;
+
+    /// The power of h with which the estimate of a step's error falls; 0 where there is none.
+    const ERROR_ORDER: f64 = 0.0;
 
     fn new(n: usize) -> Self;
 
-    /// Advances `y` by `h`; `k1 = f(t, y)` is known.
-    fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &mut Y, k1: &Y, h: f64);
+    /// The change of `y` in a step of length `h`; `k0 = f(t, y)` is known.
+    fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y);
+
+    /// Estimate of the error of the step just taken, from `y0` to `y1`, as a size [-].
+    fn error<P: Problem<Y = Y>>(&mut self, _problem: &mut P, _y0: &Y, _y1: &Y, _h: f64, _scales: &Scales) -> f64 {
+        0.0
+    }
+
+    /// The motion within the step just taken; returns the evaluations of f it took beyond those given.
+    fn interpolate<P: Problem<Y = Y>>(&mut self, _problem: &mut P, step: &Step<'_, Y>, segment: &mut Segment) -> u32 {
+        segment.set_hermite(step.at, step.h, [step.y0, step.k0, step.y1, step.k1].map(AsRef::as_ref));
+        0
+    }
 }

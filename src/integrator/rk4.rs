@@ -17,38 +17,34 @@ use crate::state::Moment;
 pub(super) const ORDER: u32 = 4;
 pub(super) const EVALUATIONS: u32 = 4;
 pub(super) const BODY_AXES: bool = true;
+pub(super) const ERROR_ORDER: f64 = 0.0;
 
 #[derive(Debug)]
 pub(super) struct Kernel<Y> {
     stage: Y,
-    k: Y,
-    sum: Y,
+    k2: Y,
+    k3: Y,
+    k4: Y,
 }
 
 impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
     const EVALUATIONS: u32 = EVALUATIONS;
 
     fn new(n: usize) -> Self {
-        Self { stage: Y::zeros(n), k: Y::zeros(n), sum: Y::zeros(n) }
+        Self { stage: Y::zeros(n), k2: Y::zeros(n), k3: Y::zeros(n), k4: Y::zeros(n) }
     }
 
     #[inline]
-    fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &mut Y, k1: &Y, h: f64) {
-        let Self { stage, k, sum } = self;
+    fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y) {
+        let Self { stage, k2, k3, k4 } = self;
         let middle = at.after(0.5 * h);
 
-        stage.set_sum(y, 0.5 * h, k1);
-        problem.rate(middle, stage, k);
-        sum.set_sum(k1, 2.0, k);
-
-        stage.set_sum(y, 0.5 * h, k);
-        problem.rate(middle, stage, k);
-        sum.add_scaled(2.0, k);
-
-        stage.set_sum(y, h, k);
-        problem.rate(at.after(h), stage, k);
-        sum.add_scaled(1.0, k);
-
-        y.add_scaled(h / 6.0, sum);
+        stage.set_sum(y, 0.5 * h, k0);
+        problem.rate(middle, stage, k2);
+        stage.set_sum(y, 0.5 * h, k2);
+        problem.rate(middle, stage, k3);
+        stage.set_sum(y, h, k3);
+        problem.rate(at.after(h), stage, k4);
+        dy.set_increment(h / 6.0, [(1.0, k0), (2.0, k2), (2.0, k3), (1.0, k4)]);
     }
 }

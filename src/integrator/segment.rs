@@ -48,7 +48,7 @@ impl Segment {
         }
     }
 
-    /// A segment from `at` to `at + h`, with room for `terms` coefficients of `n` numbers.
+    /// A segment from `at` to `at + h` for `n` polynomials with so many terms.
     pub(super) fn set_span(&mut self, at: Moment, h: f64, n: usize, terms: usize) {
         self.start = at.time;
         self.length = h;
@@ -56,6 +56,32 @@ impl Segment {
         self.since = at.since;
         self.dimension = n;
         self.coefficients.resize(terms * n, 0.0);
+    }
+
+    /// The polynomial of the number `i`, term by term.
+    pub(super) fn set_terms<const TERMS: usize>(&mut self, i: usize, terms: [f64; TERMS]) {
+        for (k, c) in terms.into_iter().enumerate() {
+            self.coefficients[k * self.dimension + i] = c;
+        }
+    }
+
+    /// The polynomial of the number `i` from the nested form of the dense outputs of Hairer, Nørsett
+    /// and Wanner:
+    ///
+    /// ```text
+    /// r₀ + s (r₁ + u (r₂ + s (r₃ + u (r₄ + …)))),   u = 1 − s
+    /// ```
+    pub(super) fn set_alternating<const TERMS: usize>(&mut self, i: usize, r: [f64; TERMS]) {
+        let mut c = [0.0; TERMS];
+        c[0] = r[TERMS - 1];
+        for k in (0..TERMS - 1).rev() {
+            // times s, or times 1 − s, and the next r
+            for power in (1..TERMS - k).rev() {
+                c[power] = if k % 2 == 0 { c[power - 1] } else { c[power] - c[power - 1] };
+            }
+            c[0] = if k % 2 == 0 { r[k] } else { c[0] + r[k] };
+        }
+        self.set_terms(i, c);
     }
 
     /// The numbers at `t` [s].

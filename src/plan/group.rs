@@ -1,7 +1,7 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
 use super::Binding;
-use crate::freedom::Chart;
+use crate::freedom::{Chart, Scales};
 use crate::integrator::{Problem, StateVector};
 use crate::state::{BodyMotion, Load, Moment};
 
@@ -117,24 +117,25 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn project(&mut self, y: &mut Y) -> f64 {
-        let y = y.as_mut();
+    fn correction(&self, y: &Y, dy: &mut Y) -> f64 {
+        let (y, dy) = (y.as_ref(), dy.as_mut());
         let (mut at, mut worst) = (0, 0.0_f64);
         for chart in &self.charts {
             let n = chart.dimension();
-            worst = worst.max(chart.project(&mut y[at..at + n]));
+            worst = worst.max(chart.correction(&y[at..at + n], &mut dy[at..at + n]));
             at += n;
         }
         worst
     }
 
-    fn orientation_error(&self, y: &Y) -> f64 {
-        let y = y.as_ref();
+    #[inline]
+    fn error_size(&self, y0: &Y, y1: &Y, e: &Y, scales: &Scales) -> f64 {
+        let (y0, y1, e) = (y0.as_ref(), y1.as_ref(), e.as_ref());
         let (mut at, mut worst) = (0, 0.0_f64);
         for chart in &self.charts {
-            let n = chart.dimension();
-            worst = worst.max(chart.orientation_error(&y[at..at + n]));
-            at += n;
+            let part = at..at + chart.dimension();
+            worst = worst.max(chart.error_size(&y0[part.clone()], &y1[part.clone()], &e[part.clone()], scales));
+            at = part.end;
         }
         worst
     }

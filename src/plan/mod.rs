@@ -12,7 +12,7 @@ use crate::contact::Material;
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Form, Freedom};
-use crate::integrator::{Flight, Integration, Method, Problem, StateVector};
+use crate::integrator::{Control, Flight, Integration, Limits, Method, Problem, StateVector};
 use crate::mass::MassProperties;
 use crate::math::{Matrix3, Vector3, quaternion};
 use crate::scene::{Body, Orientation, RunOptions, Scene};
@@ -144,7 +144,7 @@ impl Plan {
         }
         let mut left_out = Vec::new();
         let groups = Grouping::new(scene, &bodies, &mut left_out)?.groups(scene, &bodies, options, &mut left_out)?;
-        let method = options.method.unwrap_or(Method::Rk4);
+        let method = options.method.unwrap_or(Method::Dop853);
         let plan = Self { scene: scene.clone(), options: options.clone(), bodies, groups, left_out, method };
 
         // every freedom is tried once, so that a start that it does not allow is found here
@@ -194,13 +194,6 @@ impl Plan {
         self.method.form(self.options.orientation == Orientation::Matrix)
     }
 
-    /// The same plan with another step [s].
-    pub(crate) fn with_step(&self, step: f64) -> Self {
-        let options =
-            RunOptions { step: Some(step), tolerance: None, method: Some(self.method), ..self.options.clone() };
-        Self { options, ..self.clone() }
-    }
-
     /// The coordinates of a group's bodies; those in `held` rest.
     pub(crate) fn charts(&self, group: usize, held: &[usize]) -> Result<Vec<Chart>> {
         let chart = |&index: &usize| {
@@ -213,13 +206,26 @@ impl Plan {
         self.groups[group].members.iter().map(chart).collect()
     }
 
-    /// The flight of a group from time `t` [s] and these motions of its members, with steps of
-    /// `step` [s]; the bodies in `held` rest.
+    /// The flight of a group from its start at time `t` [s], for those who advance it themselves.
+    ///
+    /// # Errors
+    /// A group that the plan does not have.
+    pub fn flight(&self, group: usize, t: f64, control: Control) -> Result<Box<dyn Flight>> {
+        let Some(spec) = self.groups.get(group) else {
+            return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
+        };
+        let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
+        self.flight_for(group, t, control, &motions, &[])
+    }
+
+    /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
+    /// rest. Where the group may meet something, steps stay short enough for the search of contacts,
+    /// which looks at the ends of a step.
     pub(crate) fn flight_for(
         &self,
         group: usize,
         t: f64,
-        step: f64,
+        control: Control,
         motions: &[BodyMotion],
         held: &[usize],
     ) -> Result<Box<dyn Flight>> {
@@ -232,12 +238,20 @@ impl Plan {
             at += chart.dimension();
         }
 
+        let control = match control {
+            Control::Error(limits) if !self.groups[group].pairs.is_empty() => {
+                let longest = limits.longest.min(self.first_step(limits.scales.time));
+                Control::Error(Limits { longest, ..limits })
+            }
+            other => other,
+        };
+
         // single bodies have vectors of fixed length, whose loops the compiler unrolls
         Ok(match n {
-            13 => self.integration::<[f64; 13]>(group, charts, t, step, motions, &y),
-            7 => self.integration::<[f64; 7]>(group, charts, t, step, motions, &y),
-            6 => self.integration::<[f64; 6]>(group, charts, t, step, motions, &y),
-            _ => self.integration::<Vec<f64>>(group, charts, t, step, motions, &y),
+            13 => self.integration::<[f64; 13]>(group, charts, t, control, motions, &y),
+            7 => self.integration::<[f64; 7]>(group, charts, t, control, motions, &y),
+            6 => self.integration::<[f64; 6]>(group, charts, t, control, motions, &y),
+            _ => self.integration::<Vec<f64>>(group, charts, t, control, motions, &y),
         })
     }
 
@@ -246,13 +260,13 @@ impl Plan {
         group: usize,
         charts: Vec<Chart>,
         t: f64,
-        step: f64,
+        control: Control,
         motions: &[BodyMotion],
         y: &[f64],
     ) -> Box<dyn Flight> {
         let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
         debug_assert_eq!(problem.dimension(), y.len());
-        let integrator = self.method.integrator(&problem, step, self.options.projection);
+        let integrator = self.method.integrator(&problem, control, self.options.projection);
         Box::new(Integration::new(problem, integrator, t, y))
     }
 

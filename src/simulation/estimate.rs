@@ -1,15 +1,16 @@
 //! The error of a result, by comparing two runs of it.
 
 use crate::math::quaternion;
+use crate::state::BodyState;
 use crate::trajectory::Trajectory;
 
-/// Two runs of one scene with different steps.
+/// Two runs of one scene, one finer than the other.
 ///
 /// ```text
-/// error of the finer run ≈ |fine − coarse| / (rᵖ − 1)         r ratio of the steps, p order (Richardson)
+/// error of the finer run ≈ |fine − coarse| / (gain − 1) + rounding        gain = coarse error/fine error (Richardson)
 /// ```
 ///
-/// The formula holds where both steps are small enough for the error to fall as its order says. Where
+/// The formula holds where both runs are fine enough for the error to fall as the gain says. Where
 /// they are not, the difference is large and the formula errs on either side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Comparison {
@@ -22,15 +23,14 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    pub(super) fn new(fine: &Trajectory, coarse: &Trajectory, ratio: f64, tolerance: Option<f64>) -> Self {
-        let order = f64::from(fine.plan().method().order());
-        let divisor = libm::pow(ratio, order) - 1.0;
+    pub(super) fn new(fine: &Trajectory, coarse: &Trajectory, gain: f64, rounding: f64, tolerance: Option<f64>) -> Self {
+        let divisor = (gain - 1.0).max(1.0);
         let tolerance = tolerance.unwrap_or(f64::INFINITY);
         let mut comparison = Self { worst: 0.0, within_horizon: 0.0, horizon: fine.end() };
         let common = fine.times().len().min(coarse.times().len());
         let mut lost = common < fine.times().len();
         for sample in 0..common {
-            let error = difference(fine, coarse, sample) / divisor;
+            let error = difference(fine.states(sample), coarse.states(sample), fine.report().length_scale) / divisor + rounding;
             comparison.worst = comparison.worst.max(error);
             if error > tolerance && !lost {
                 lost = true;
@@ -47,12 +47,11 @@ impl Comparison {
     }
 }
 
-/// Largest difference of a sample of two runs [-]: of positions over the length scale of the first,
-/// of orientations in radians.
-pub(crate) fn difference(a: &Trajectory, b: &Trajectory, sample: usize) -> f64 {
-    let scale = a.report().length_scale;
-    let pairs = a.states(sample).iter().zip(b.states(sample));
-    pairs
+/// Largest difference between the states of a scene's bodies [-]: of positions over `scale` [m], of
+/// orientations in radians.
+pub(crate) fn difference(a: &[BodyState], b: &[BodyState], scale: f64) -> f64 {
+    a.iter()
+        .zip(b)
         .map(|(a, b)| {
             let place = (a.position - b.position).norm() / scale;
             place.max(quaternion::angle_between(&a.orientation, &b.orientation))

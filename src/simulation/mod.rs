@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::contact::{Answer, Response, bounce, stick};
 use crate::error::{Error, Result};
 use crate::impact::{Outcome, find_impact};
-use crate::integrator::{Counts, Flight, FlightError};
+use crate::integrator::{Control, Counts, Flight, FlightError};
 use crate::math::Vector3;
 use crate::plan::{EPS_ROUNDING, Pair, Plan};
 use crate::scene::Span;
@@ -96,7 +96,7 @@ struct Lane {
 #[derive(Debug)]
 pub struct Simulation {
     plan: Arc<Plan>,
-    step: f64,
+    control: Control,
     time: f64,
     end: f64,
     lanes: Vec<Lane>,
@@ -120,16 +120,16 @@ impl Plan {
         if !t.is_finite() {
             return Err(Error::value("run", "start", "a finite time", t));
         }
-        Simulation::new(Arc::new(self.clone()), Span { start: t, end: f64::INFINITY }, step)
+        Simulation::new(Arc::new(self.clone()), Span { start: t, end: f64::INFINITY }, Control::Step(step))
     }
 }
 
 impl Simulation {
-    fn new(plan: Arc<Plan>, span: Span, step: f64) -> Result<Self> {
+    fn new(plan: Arc<Plan>, span: Span, control: Control) -> Result<Self> {
         let mut lanes = Vec::new();
         for (group, spec) in plan.groups().iter().enumerate() {
             let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            let flight = plan.flight_for(group, span.start, step, &motions, &[])?;
+            let flight = plan.flight_for(group, span.start, control, &motions, &[])?;
             lanes.push(Lane {
                 group,
                 flight,
@@ -140,7 +140,7 @@ impl Simulation {
                 cursor: 0,
             });
         }
-        Ok(Self { plan, step, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
+        Ok(Self { plan, control, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
     }
 
     /// The plan that runs.
@@ -170,6 +170,9 @@ impl Simulation {
         }
         for lane in 0..self.lanes.len() {
             self.advance_lane(lane, to, &mut None).map_err(Box::new)?;
+            if let Err(error) = self.lanes[lane].flight.interpolate() {
+                return Err(Box::new(self.failure(lane, self.time, error.into())).into());
+            }
         }
         self.time = to;
         Ok(())
@@ -229,6 +232,14 @@ impl Simulation {
             return Err(self.failure(index, front, error.into()));
         }
 
+        // the motion within the step, where someone looks at it
+        let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
+        if looked_at || !spec.pairs.is_empty() {
+            if let Err(error) = lane.flight.interpolate() {
+                return Err(self.failure(index, front, error.into()));
+            }
+        }
+
         // the first of the pairs that touch within the step cuts it
         let first = self.first_impact(index, &spec.pairs)?;
         let lane = &mut self.lanes[index];
@@ -237,7 +248,7 @@ impl Simulation {
             self.iterations += u64::from(iterations);
         }
         let lane = &mut self.lanes[index];
-        if let Some(run) = record {
+        if let (Some(run), true) = (record.as_mut(), looked_at) {
             let mut scratch = Vec::new();
             run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
         }
@@ -245,7 +256,9 @@ impl Simulation {
             return self.answer_touches(index, iterations, record);
         }
         if lane.flight.front() >= switch {
-            lane.flight.pass_switch();
+            if let Err(error) = lane.flight.pass_switch() {
+                return Err(self.failure(index, front, error.into()));
+            }
         }
         Ok(())
     }
@@ -370,8 +383,8 @@ impl Simulation {
             kind: Failure::Refused(error.to_string()),
             trajectory: None,
         };
-        let (exact, since, _) = lane.flight.saved_front();
-        lane.flight = plan.flight_for(lane.group, time, self.step, motions, &lane.held).map_err(failed)?;
+        let (exact, since) = lane.flight.clock();
+        lane.flight = plan.flight_for(lane.group, time, self.control, motions, &lane.held).map_err(failed)?;
         lane.flight.set_clock(exact, since);
         lane.motions.copy_from_slice(motions);
         if let (Some(run), Response::Stick) = (record, pair.material.response) {

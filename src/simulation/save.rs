@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use super::{Lane, Simulation};
 use crate::error::{Error, Result};
-use crate::integrator::{Counts, Segment};
-use crate::math::sum::Time;
+use crate::integrator::{Control, Counts, Front, Segment};
 use crate::scene::{RunOptions, Scene, Span};
 use crate::state::BodyMotion;
 use crate::trajectory::Event;
@@ -28,9 +27,7 @@ struct Saved {
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SavedLane {
-    front: Time,
-    since: f64,
-    y: Vec<f64>,
+    front: Front<Vec<f64>>,
     segment: Segment,
     counts: Counts,
     earlier: Counts,
@@ -39,7 +36,7 @@ struct SavedLane {
 }
 
 /// Version of the file's layout.
-const VERSION: &str = "state 1";
+const VERSION: &str = "state 2";
 
 impl Simulation {
     /// Writes the running state to a file, conventionally `.bryla`.
@@ -50,11 +47,8 @@ impl Simulation {
         // the scene says what cannot be written
         self.plan.scene().to_text(crate::scene::file::Format::Json)?;
         let lanes = self.lanes.iter().map(|lane| {
-            let (front, since, y) = lane.flight.saved_front();
             SavedLane {
-                front,
-                since,
-                y: y.to_vec(),
+                front: lane.flight.saved_front(),
                 segment: lane.flight.segment().clone(),
                 counts: *lane.flight.counts(),
                 earlier: lane.earlier,
@@ -89,7 +83,7 @@ impl Simulation {
         }
         let plan = Arc::new(saved.scene.compile(&saved.options)?);
         let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
-        let mut simulation = Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, step)?;
+        let mut simulation = Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, Control::Step(step))?;
         if saved.lanes.len() != simulation.lanes.len() {
             return Err(file_error(path, &"its state does not belong to its scene"));
         }
@@ -115,16 +109,16 @@ impl Lane {
         if saved.motions.len() != self.motions.len() {
             return None;
         }
-        match plan.flight_for(group, saved.front.value, step, &saved.motions, &saved.held) {
+        match plan.flight_for(group, saved.front.time.value, Control::Step(step), &saved.motions, &saved.held) {
             Ok(flight) => self.flight = flight,
             Err(error) => return Some(Err(error)),
         }
-        let n = self.flight.saved_front().2.len();
+        let n = self.flight.saved_front().y.len();
         let terms = saved.segment.coefficients.len();
-        if saved.y.len() != n || ![0, n].contains(&saved.segment.dimension) || (n > 0 && terms % n != 0) {
+        if saved.front.y.len() != n || saved.front.rest.len() != n || ![0, n].contains(&saved.segment.dimension) || (n > 0 && terms % n != 0) {
             return None;
         }
-        self.flight.resume(saved.front, saved.since, &saved.y, saved.segment, saved.counts);
+        self.flight.resume(&saved.front, saved.segment, saved.counts);
         self.earlier = saved.earlier;
         self.held = saved.held;
         self.motions = saved.motions;

@@ -38,10 +38,14 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
                     .map(|e| (e[0] / e[1]).log2())
                     .collect();
                 assert!(slopes.len() >= 2, "{method} on the {name} body: too few errors in the window: {errors:?}");
+                // each slope of the low orders; of the high ones, whose window holds two or three, their mean
                 let order = f64::from(method.order());
-                for slope in &slopes {
-                    assert!(*slope >= order - 0.1, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
-                }
+                let (low, width) = if method.order() <= 4 {
+                    (slopes.iter().copied().fold(f64::INFINITY, f64::min), 0.1)
+                } else {
+                    (slopes.iter().sum::<f64>() / slopes.len() as f64, 0.3)
+                };
+                assert!(low >= order - width, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
             }
         }
     }
@@ -56,8 +60,11 @@ fn a_step_never_straddles_a_switch_so_the_order_survives_it() {
     let truth = last(&run(&scene, 3.0, Method::Rk4, 3.0 / 32768.0));
     for &method in Method::ALL {
         let error = |n: u32| distance(&last(&run(&scene, 3.0, method, 3.0 / f64::from(n))), &truth);
-        // the steps before the switches differ from the others, which blurs the slope of one halving
-        let slope = (error(64) / error(512)).log2() / 3.0;
-        assert!(slope >= f64::from(method.order()) - 0.3, "{method}: {slope:.2}");
+        // the steps before the switches differ from the others, which blurs the slope of one halving; three
+        // halvings from the first step whose error the order can bring down without reaching rounding
+        let order = f64::from(method.order());
+        let coarse = (3..9).map(|k| 1 << k).find(|&n| error(n) < 1e-2).unwrap();
+        let slope = (error(coarse) / error(8 * coarse)).log2() / 3.0;
+        assert!(slope >= order - 0.3 || error(8 * coarse) < SMALLEST_ERROR, "{method}: {slope:.2} from {coarse}");
     }
 }
