@@ -2,6 +2,7 @@
 //! (`tests/data/make_free_rotation.py`, `make_free_rotation_far.py`; no formula in common), and against
 //! what must hold for any of them.
 #![cfg(feature = "serde")]
+#![allow(clippy::unwrap_used)] // a panic is how a test fails
 
 use bryla::integrator::free_rotation::FreeRotation;
 use bryla::math::{Matrix3, Quaternion, Vector3, quaternion};
@@ -303,6 +304,32 @@ fn a_flight_may_be_cut_in_two_and_flown_back() {
     assert!(cut([1.0, 1.0, 2.0], [0.5, -1.3, 0.7], 20.0) < 64.0 * EPS * 40.0);
     // unstable: small components keep their digits, so that even there nothing is lost
     assert!(cut([1.0, 2.0, 3.0], [1e-6, 2.0, 1e-6], 10.0) < 64.0 * EPS * 20.0);
+}
+
+#[test]
+fn far_away_neighbouring_times_fit_together() {
+    // a phase rounded at 1e9 rad would jump by 1e-7 from one time to the next, and so would any root search
+    // on the motion; the restarted flight shares the rates, so that only such jumps can show
+    for (moments, l) in
+        [([0.8, 1.5, 2.1], [0.5, -1.3, 0.7]), ([1.0, 2.0, 3.0], [0.01, 2.0, 0.01]), ([1.0, 1.0, 2.0], [0.5, -1.3, 0.7])]
+    {
+        let body = |q: Quaternion, l: Vector3| FreeRotation::new(Vector3::from(moments), Matrix3::identity(), q, l);
+        let whole = body(Quaternion::identity(), Vector3::from(l));
+        for t in [1e6, -1e6, 1e9] {
+            let (q, l) = whole.at(t);
+            let (q_next, l_next) = body(q, l).at(1.0);
+            let (q_whole, l_whole) = whole.at(t + 1.0);
+            assert!(quaternion::angle_between(&q_next, &q_whole) < 64.0 * EPS);
+            assert!((l_next - l_whole).norm() < 64.0 * EPS);
+        }
+        // 0.1 s is no double, and sums of it near 1e6 s are rounded by 1e-10 s: the grid's times are not
+        let grid: Vec<_> = whole.uniform(1e6, 0.1, 70).collect();
+        for pair in grid.windows(2) {
+            let (q_next, l_next) = body(pair[0].0, pair[0].1).at(0.1);
+            assert!(quaternion::angle_between(&q_next, &pair[1].0) < 64.0 * EPS);
+            assert!((l_next - pair[1].1).norm() < 64.0 * EPS);
+        }
+    }
 }
 
 #[test]

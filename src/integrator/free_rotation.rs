@@ -162,7 +162,7 @@ impl FreeRotation {
     /// The states at the times `t0 + k dt`, k = 0, 1, …, `count − 1` [s].
     ///
     /// Times are exact, not rounded sums. Away from the separatrix the sines and cosines come from a
-    /// table of [`BLOCK`] steps, turned once for each block; an entry is one complex product away from
+    /// table of 32 steps, turned once for each block; an entry is one complex product away from
     /// a direct evaluation, so that its error does not grow along the grid.
     pub fn uniform(&self, t0: f64, dt: f64, count: usize) -> Uniform<'_> {
         let table = match &self.series {
@@ -226,7 +226,7 @@ impl Iterator for Uniform<'_> {
         let motion = self.motion;
         let relative = match &motion.series {
             Series::Circular(series) => {
-                if k % BLOCK == 0 {
+                if k.is_multiple_of(BLOCK) {
                     let t = instant(self.t0, self.dt, k);
                     self.anchor = (product(series.start, turn(motion.rate, t)), turn(motion.phase_rate, t));
                 }
@@ -250,9 +250,9 @@ struct Polhode {
     /// Columns: c, m, p in principal axes; a signed permutation.
     axes: Matrix3,
     inertia: [f64; 3],
-    /// L (not normalised), with n_c ≥ 0 and n_p ≥ 0.
+    /// L (not normalised), with `n_c` ≥ 0 and `n_p` ≥ 0.
     n: [f64; 3],
-    /// A_c, A_m, A_p, in the same unit.
+    /// `A_c`, `A_m`, `A_p`, in the same unit.
     amplitude: [f64; 3],
     /// `(a_c − a_m)/(a_c − a_p)` and `(a_m − a_p)/(a_c − a_p)`; their sum is 1.
     kappa: [f64; 2],
@@ -332,12 +332,12 @@ struct Circular {
     /// Harmonics in pairs (2j + 1, 2j + 2), of which `used` matter.
     pairs: [Pair; PAIRS],
     used: usize,
-    /// The constant term of n_p.
+    /// The constant term of `n_p`.
     mean_p: f64,
 }
 
-/// Two harmonics: factors of the cosine and sine of the odd one in (Im ξ, Re ξ) and (n_c, n_m), of those of the
-/// even one in (Re α, Im α), and of its cosine in n_p; eight numbers, so that they are summed abreast.
+/// Two harmonics: factors of the cosine and sine of the odd one in (Im ξ, Re ξ) and (`n_c`, `n_m`), of those of the
+/// even one in (Re α, Im α), and of its cosine in `n_p`; eight numbers, so that they are summed abreast.
 type Pair = [f64; 8];
 
 /// Pairs of harmonics that the largest nome needs: q^(30) and q^(36) are below rounding [-].
@@ -448,7 +448,7 @@ struct Hyperbolic {
     x: f64,
     /// D^(k²) (cos, sin) of (2k + 1) x, then the same with the sign (−1)ᵏ for ξ, k = 0…3.
     harmonics: [[f64; 4]; 4],
-    /// Factors of n_c, n_m, n_p.
+    /// Factors of `n_c`, `n_m`, `n_p`.
     scale: [f64; 3],
 }
 

@@ -127,7 +127,7 @@ impl Landen {
         for (factor, &sigma) in factors.iter_mut().zip(&self.sigma[..self.rounds]) {
             // (1 + σ/y)/(1 + σ y) in one division
             *factor = (yn + sigma) / (yn * (1.0 + sigma * yn));
-            yn *= yn * *factor;
+            yn = yn * yn * *factor;
             if yn < f64::MIN_POSITIVE {
                 break; // what follows is 1 to rounding
             }
