@@ -73,7 +73,9 @@ fn recorded_driven_motions_are_those_of_the_equations() {
             // a thousand steps a radian: (1e-3)⁴/100 of error for each, far below what a wrong sign would do;
             // it is multiplied by e^(2 t) at most where a top falls over
             let more = state["turned"].as_f64().unwrap() - turned;
-            (q, l) = problem.advance(t, q, l, end - t, (1000.0 * more) as u32 + 1000);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few hundred radians at most
+            let steps = (1000.0 * more) as u32 + 1000;
+            (q, l) = problem.advance(t, q, l, end - t, steps);
             (t, turned) = (end, turned + more);
 
             let truth = quaternion::from_scalar_first(numbers(&state["orientation"]));
