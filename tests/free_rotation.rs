@@ -213,8 +213,25 @@ fn bodies() -> Vec<(Vector3, Matrix3, Quaternion, Vector3)> {
     let tilted = quaternion::to_matrix(&quaternion::exp(&Vector3::new(0.4, -1.0, 2.2)));
     let q = quaternion::normalized(&Quaternion::new(0.3, -0.9, 0.2, 0.6));
     let mut all = Vec::new();
-    for moments in [[0.8, 1.5, 2.1], [2.0, 2.0, 1.0], [1.0, 1.0, 1.0], [1.0, 2.0, 3.0], [1e-6, 1.0, 1.0 + 5e-7]] {
-        for l in [[0.5, -1.3, 0.7], [1e-6, 2.0, 1e-6], [0.0, 0.0, -3.0], [0.1, 1.0, 0.11]] {
+    let moments = [
+        [0.8, 1.5, 2.1],
+        [2.0, 2.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [1.0, 2.0, 3.0],
+        [1e-6, 1.0, 1.0 + 5e-7],
+        [1.0 + 1e-12, 1.0, 1.03],
+        [1.0, 1.0 + 1e-15, 0.97],
+    ];
+    for moments in moments {
+        // the last ones wobble so little that with two moments nearly equal the parameter is below 1e-37
+        for l in [
+            [0.5, -1.3, 0.7],
+            [1e-6, 2.0, 1e-6],
+            [0.0, 0.0, -3.0],
+            [0.1, 1.0, 0.11],
+            [2e-13, 0.0, 2.0],
+            [1e-20, 3e-14, 2.0],
+        ] {
             for axes in [Matrix3::identity(), tilted, -tilted] {
                 all.push((Vector3::from(moments), axes, q, Vector3::from(l)));
             }

@@ -47,6 +47,7 @@ impl Landen {
         let mut chain = Self { sigma: [0.0; LANDEN_ROUNDS], rounds: 0, excess: 0.0 };
         let one_plus = 1.0 + m1.sqrt();
         let mut sigma = m / (one_plus * one_plus);
+        chain.sigma[0] = sigma;
         while sigma > SIGMA_FLOOR && chain.rounds < LANDEN_ROUNDS {
             chain.sigma[chain.rounds] = sigma;
             chain.rounds += 1;
@@ -61,8 +62,11 @@ impl Landen {
 
     /// The nome q = e^(−πK′/K) of the chain's parameter, for `m1` ≥ [`SERIES_SWITCH`].
     pub fn nome(&self) -> f64 {
-        // σ₀ is the modulus whose nome is q²
+        // σ₀ is the modulus whose nome is q²; where σ² would underflow, q² = σ²/16 to rounding
         let sigma = self.sigma[0];
+        if sigma < SMALL_SIGMA {
+            return 0.25 * sigma;
+        }
         small_nome(sigma * sigma, (1.0 - sigma) * (1.0 + sigma)).sqrt()
     }
 
@@ -143,6 +147,9 @@ impl Landen {
 /// σ below which a link changes nothing [-]. It enters [`Landen::decay`] as `σ/yₙ = 4 √qₙ` at worst, with
 /// `σ = 4 qₙ`: the square of what is below rounding. A larger one would cost digits there.
 const SIGMA_FLOOR: f64 = 1.0e-35;
+
+/// σ below which `q = σ/4` holds to rounding: the next term of q is `σ²/4` of it [-].
+const SMALL_SIGMA: f64 = 1.0e-8;
 
 /// `atan x` for `|x| ≤ σ/(1 − σ)`, by its series where σ is small: to `x¹⁵/15`, below 1e-19 of x.
 fn small_arc_tangent(x: f64, sigma: f64) -> f64 {
@@ -461,7 +468,7 @@ mod tests {
             if m <= 0.5 {
                 assert!(relative(small_nome(m, m1), q) < 4.0 * f64::EPSILON, "q({m})");
             }
-            if m > 1e-100 && m1 >= SERIES_SWITCH {
+            if m > 0.0 && m1 >= SERIES_SWITCH {
                 assert!(relative(Landen::new(m, m1).nome(), q) < 4.0 * f64::EPSILON, "q({m})");
             }
         }
