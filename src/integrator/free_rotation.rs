@@ -91,7 +91,7 @@ impl FreeRotation {
     /// The rotation of a body from its state at t = 0.
     ///
     /// - `principal_moments` [kg m²]: positive and finite, in any order;
-    /// - `principal_axes`: their axes as columns, in body axes, orthonormal to rounding;
+    /// - `principal_axes`: their axes as columns, in body axes, orthonormal to rounding, of either handedness;
     /// - `orientation`: body to world, of which `q/|q|` is taken;
     /// - `angular_momentum_body`: L in body axes [kg m²/s]; zero is a body at rest.
     pub fn new(
@@ -100,11 +100,19 @@ impl FreeRotation {
         orientation: Quaternion,
         angular_momentum_body: Vector3,
     ) -> Self {
+        // the directions of a left-handed set reversed name the same axes
+        let principal_axes = if principal_axes.determinant() < 0.0 { -principal_axes } else { principal_axes };
+
         // in units that are powers of two, so that squares neither overflow nor round
         let l = principal_axes.tr_mul(&angular_momentum_body);
-        let l_unit = power_of_two_below(l.amax());
         let i_unit = power_of_two_below(principal_moments.amax());
-        let (l, moments) = (l / l_unit, principal_moments / i_unit);
+        let moments = principal_moments / i_unit;
+        let (l, l_unit) = if l.amax() == 0.0 {
+            (Vector3::z(), 0.0) // at rest: any direction, at no rate
+        } else {
+            let l_unit = power_of_two_below(l.amax());
+            (l / l_unit, l_unit)
+        };
 
         let polhode = Polhode::new(&moments, &l);
         let Polhode { inertia: [i_c, i_m, i_p], amplitude: [a_c, _, a_p], .. } = polhode;
@@ -114,7 +122,7 @@ impl FreeRotation {
         // λ, and the phase rate of α where L crosses the plane of c and p
         let unit = l_unit / i_unit;
         let lambda = a_p / i_p * ((i_p - i_c) / i_c * ((i_p - i_m) / i_m)).max(0.0).sqrt() * unit;
-        let crossing = if total == 0.0 { 0.0 } else { 0.5 * (a_c * a_c / ((total + a_p) * i_c) + a_p / i_p) * unit };
+        let crossing = 0.5 * (a_c * a_c / ((total + a_p) * i_c) + a_p / i_p) * unit;
 
         let (series, rate, phase_rate) = if polhode.m1 >= SERIES_SWITCH {
             let (circular, stretch, slope) = Circular::new(&polhode, total);
@@ -129,7 +137,10 @@ impl FreeRotation {
         // orientation = to_world(X) with X at t = 0 known: one linear map for all times
         let axes = principal_axes * polhode.axes;
         let mut motion = Self { axes, to_world: [[0.0; 4]; 4], length: total * l_unit, phase_rate, rate, series };
-        let start = motion.relative(Instant { high: 0.0, low: 0.0 });
+        let start = match &motion.series {
+            Series::Circular(series) => series.at(series.start, [1.0, 0.0]),
+            Series::Hyperbolic(series) => series.at(rate, phase_rate, Instant { high: 0.0, low: 0.0 }),
+        };
         let x0 = quaternion::normalized(&Quaternion::new(start.alpha[0], start.xi[0], start.xi[1], start.alpha[1]));
         let body = quaternion::from_matrix(&axes);
         let left = quaternion::normalized(&orientation) * body * x0.conjugate();
@@ -151,7 +162,7 @@ impl FreeRotation {
     /// The states at the times `t0 + k dt`, k = 0, 1, …, `count − 1` [s].
     ///
     /// Times are exact, not rounded sums. Away from the separatrix the sines and cosines come from a
-    /// table of [`BLOCK`] steps, turned once for each block; an entry is one complex product away from
+    /// table of 32 steps, turned once for each block; an entry is one complex product away from
     /// a direct evaluation, so that its error does not grow along the grid.
     pub fn uniform(&self, t0: f64, dt: f64, count: usize) -> Uniform<'_> {
         let table = match &self.series {
@@ -168,7 +179,7 @@ impl FreeRotation {
 
     fn relative(&self, t: Instant) -> Relative {
         match &self.series {
-            Series::Circular(series) => series.at(turn(self.rate, t), turn(self.phase_rate, t)),
+            Series::Circular(series) => series.at(product(series.start, turn(self.rate, t)), turn(self.phase_rate, t)),
             Series::Hyperbolic(series) => series.at(self.rate, self.phase_rate, t),
         }
     }
@@ -176,12 +187,13 @@ impl FreeRotation {
     #[inline]
     fn state(&self, relative: &Relative) -> (Quaternion, Vector3) {
         let x = [relative.alpha[0], relative.xi[0], relative.xi[1], relative.alpha[1]];
-        let scale = 1.0 / (x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]).sqrt();
-        let [w, i, j, k] = self.to_world.map(|m| scale * (m[0] * x[0] + m[1] * x[1] + m[2] * x[2] + m[3] * x[3]));
+        let [w, i, j, k] = self.to_world.map(|m| m[0] * x[0] + m[1] * x[1] + m[2] * x[2] + m[3] * x[3]);
+        let scale = 1.0 / (w * w + i * i + j * j + k * k).sqrt();
+        let q = Quaternion::new(scale * w, scale * i, scale * j, scale * k);
 
         let n = self.axes * Vector3::from(relative.n);
         let l = n * (self.length / n.norm_squared().sqrt());
-        (Quaternion::new(w, i, j, k), l)
+        (q, l)
     }
 }
 
@@ -214,9 +226,9 @@ impl Iterator for Uniform<'_> {
         let motion = self.motion;
         let relative = match &motion.series {
             Series::Circular(series) => {
-                if k % BLOCK == 0 {
+                if k.is_multiple_of(BLOCK) {
                     let t = instant(self.t0, self.dt, k);
-                    self.anchor = (turn(motion.rate, t), turn(motion.phase_rate, t));
+                    self.anchor = (product(series.start, turn(motion.rate, t)), turn(motion.phase_rate, t));
                 }
                 let (v, phase) = self.table[k % BLOCK];
                 series.at(product(self.anchor.0, v), product(self.anchor.1, phase))
@@ -238,9 +250,9 @@ struct Polhode {
     /// Columns: c, m, p in principal axes; a signed permutation.
     axes: Matrix3,
     inertia: [f64; 3],
-    /// L (not normalised), with n_c ≥ 0 and n_p ≥ 0.
+    /// L (not normalised), with `n_c` ≥ 0 and `n_p` ≥ 0.
     n: [f64; 3],
-    /// A_c, A_m, A_p, in the same unit.
+    /// `A_c`, `A_m`, `A_p`, in the same unit.
     amplitude: [f64; 3],
     /// `(a_c − a_m)/(a_c − a_p)` and `(a_m − a_p)/(a_c − a_p)`; their sum is 1.
     kappa: [f64; 2],
@@ -320,19 +332,13 @@ struct Circular {
     /// Harmonics in pairs (2j + 1, 2j + 2), of which `used` matter.
     pairs: [Pair; PAIRS],
     used: usize,
-    /// The constant term of n_p.
+    /// The constant term of `n_p`.
     mean_p: f64,
 }
 
-/// Two harmonics: factors of (cos, sin) of the odd one in (Im ξ, Re ξ) and (n_c, n_m), and of the even one in
-/// (Re α, Im α) and, of its cosine, in n_p.
-#[derive(Debug, Clone, Copy, Default)]
-struct Pair {
-    xi: [f64; 2],
-    n: [f64; 2],
-    alpha: [f64; 2],
-    n_p: f64,
-}
+/// Two harmonics: factors of the cosine and sine of the odd one in (Im ξ, Re ξ) and (`n_c`, `n_m`), of those of the
+/// even one in (Re α, Im α), and of its cosine in `n_p`; eight numbers, so that they are summed abreast.
+type Pair = [f64; 8];
 
 /// Pairs of harmonics that the largest nome needs: q^(30) and q^(36) are below rounding [-].
 const PAIRS: usize = 5;
@@ -349,7 +355,7 @@ impl Circular {
         // smaller from their product q
         let q = chain.nome();
         let f2_start = to_m / square(1.0 + to_p.sqrt());
-        let g2_start = if total == 0.0 { 0.0 } else { square(a_c / (total + a_p)) };
+        let g2_start = square(a_c / (total + a_p));
         let (f2, g2) = if f2_start == 0.0 && g2_start == 0.0 {
             (0.0, 0.0)
         } else if f2_start >= g2_start {
@@ -362,7 +368,7 @@ impl Circular {
         let g = g2.sqrt();
 
         // harmonics k = 2j + 1 and 2j + 2; theta functions of q stand beside those of Q
-        let mut pairs = [Pair::default(); PAIRS];
+        let mut pairs = [[0.0; 8]; PAIRS];
         let mut used = 0;
         let (mut q_k, mut e, mut f_k) = (q, g, f2); // qᵏ, q^(k(k−1)/2) gᵏ, f^(2k)
         let (mut odd, mut even, mut sign) = (1.0, 1.0, 1.0); // q^(j² + j), q^(j²), (−1)ʲ
@@ -370,16 +376,16 @@ impl Circular {
         let (mut value, mut slope) = (1.0, 0.0);
         while used < PAIRS && odd > NEGLIGIBLE {
             let pair = &mut pairs[used];
-            pair.xi = [-sign * e * (1.0 - f_k), sign * e * (1.0 + f_k)];
-            pair.n = [odd, sign * odd];
+            (pair[0], pair[1]) = (-sign * e * (1.0 - f_k), sign * e * (1.0 + f_k));
+            (pair[2], pair[3]) = (odd, sign * odd);
             theta2 += odd;
             even *= q_k;
             e *= q_k * g;
             q_k *= q;
             f_k *= f2;
 
-            pair.alpha = [-sign * e * (1.0 + f_k), -sign * e * (1.0 - f_k)];
-            pair.n_p = 2.0 * even;
+            (pair[4], pair[5]) = (-sign * e * (1.0 + f_k), -sign * e * (1.0 - f_k));
+            pair[6] = 2.0 * even;
             theta3 += 2.0 * even;
             theta4 -= 2.0 * sign * even;
             odd *= q_k;
@@ -388,58 +394,39 @@ impl Circular {
             f_k *= f2;
 
             used += 1;
-            value += pair.alpha[0];
-            slope += 2.0 * used as f64 * pair.alpha[1];
+            value += pair[4];
+            slope += 2.0 * used as f64 * pair[5];
             sign = -sign;
         }
 
         // n = (A_c θ₄/θ₂ θ₂(v), A_m θ₃/θ₂ θ₁(v), A_p θ₄/θ₃ θ₃(v)) / θ₄(v), whose length needs no θ₄(v)
         let (to_c, to_mid, mean_p) = (a_c * theta4 / theta2, a_m * theta3 / theta2, a_p * theta4 / theta3);
         for pair in &mut pairs[..used] {
-            pair.n = [to_c * pair.n[0], to_mid * pair.n[1]];
-            pair.n_p *= mean_p;
+            pair[2] *= to_c;
+            pair[3] *= to_mid;
+            pair[6] *= mean_p;
         }
         (Self { start: [cos, sin], pairs, used, mean_p }, chain.stretch(), slope / value)
     }
 
-    /// At the turns of v and of the phase since t = 0, each as cosine and sine.
+    /// At the argument v and the phase, each as cosine and sine.
     #[inline]
     fn at(&self, v: [f64; 2], phase: [f64; 2]) -> Relative {
-        let mut odd = product(self.start, v);
+        let mut odd = v;
         let twice = [(odd[0] - odd[1]) * (odd[0] + odd[1]), 2.0 * odd[0] * odd[1]];
         let mut even = twice;
-        let mut sum = self.pairs[0].times(odd, even);
-        for pair in &self.pairs[1..self.used] {
+        let mut sum: Pair = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, self.mean_p, 0.0];
+        for pair in &self.pairs[..self.used] {
+            let wave = [odd[0], odd[1], odd[0], odd[1], even[0], even[1], even[0], even[1]];
+            for i in 0..8 {
+                sum[i] += pair[i] * wave[i];
+            }
             odd = product(odd, twice);
             even = product(even, twice);
-            sum = sum.plus(&pair.times(odd, even));
         }
-        let alpha = [1.0 + sum.alpha[0], sum.alpha[1]];
-        let (xi, n) = ([sum.xi[1], sum.xi[0]], [sum.n[0], sum.n[1], self.mean_p + sum.n_p]);
+        let [xi_im, xi_re, n_c, n_m, alpha_re, alpha_im, n_p, _] = sum;
+        let (alpha, xi, n) = ([alpha_re, alpha_im], [xi_re, xi_im], [n_c, n_m, n_p]);
         Relative { alpha: product(alpha, phase), xi: product(xi, phase), n }
-    }
-}
-
-impl Pair {
-    /// The two harmonics, from cosine and sine of each.
-    #[inline]
-    fn times(&self, odd: [f64; 2], even: [f64; 2]) -> Self {
-        Self {
-            xi: [self.xi[0] * odd[0], self.xi[1] * odd[1]],
-            n: [self.n[0] * odd[0], self.n[1] * odd[1]],
-            alpha: [self.alpha[0] * even[0], self.alpha[1] * even[1]],
-            n_p: self.n_p * even[0],
-        }
-    }
-
-    #[inline]
-    fn plus(&self, b: &Self) -> Self {
-        Self {
-            xi: [self.xi[0] + b.xi[0], self.xi[1] + b.xi[1]],
-            n: [self.n[0] + b.n[0], self.n[1] + b.n[1]],
-            alpha: [self.alpha[0] + b.alpha[0], self.alpha[1] + b.alpha[1]],
-            n_p: self.n_p + b.n_p,
-        }
     }
 }
 
@@ -461,7 +448,7 @@ struct Hyperbolic {
     x: f64,
     /// D^(k²) (cos, sin) of (2k + 1) x, then the same with the sign (−1)ᵏ for ξ, k = 0…3.
     harmonics: [[f64; 4]; 4],
-    /// Factors of n_c, n_m, n_p.
+    /// Factors of `n_c`, `n_m`, `n_p`.
     scale: [f64; 3],
 }
 
@@ -591,7 +578,14 @@ fn angle(rate: f64, t: Instant) -> (f64, f64) {
 #[inline]
 fn cos_sin(angle: f64, rest: f64) -> [f64; 2] {
     let (s, c) = libm::sincos(angle);
-    [c - rest * s, s + rest * c]
+    // the rest is an ulp of the angle: a series will do up to 1e12 rad
+    let (s_rest, c_rest) = if rest.abs() < 1e-4 {
+        let half = 0.5 * rest * rest;
+        (rest - rest * half / 3.0, 1.0 - half)
+    } else {
+        libm::sincos(rest)
+    };
+    [c * c_rest - s * s_rest, s * c_rest + c * s_rest]
 }
 
 /// Cosine and sine of `rate t`.
@@ -627,10 +621,9 @@ fn sorted(v: &Vector3) -> (usize, usize, usize) {
     (low, mid, high)
 }
 
-/// The power of two at or below |x|; 1 for 0.
+/// The power of two at or below x > 0, or the smallest normal one.
 fn power_of_two_below(x: f64) -> f64 {
-    let power = f64::from_bits(x.abs().to_bits() & 0x7ff0_0000_0000_0000);
-    if x == 0.0 { 1.0 } else { power.max(f64::MIN_POSITIVE) }
+    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000).max(f64::MIN_POSITIVE)
 }
 
 /// An unevaluated sum of two `f64`, for the one difference that decides everything.
