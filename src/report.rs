@@ -1,5 +1,6 @@
 //! What ran, what it cost, and how far the result is to be trusted.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use crate::integrator::{Counts, Method};
@@ -7,6 +8,7 @@ use crate::plan::Plan;
 
 /// Time spent by stage [s of the thread's clock].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Seconds {
     /// Checking the scene and making the plan.
     pub compile: f64,
@@ -18,6 +20,7 @@ pub struct Seconds {
 
 /// What ran, what it cost, and how far the result is to be trusted.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Method of integration.
     pub method: Method,
@@ -29,7 +32,7 @@ pub struct Report {
     /// orientation error in radians, over all samples and bodies up to the horizon.
     pub error_estimate: Option<f64>,
     /// How the error was estimated.
-    pub estimated_by: &'static str,
+    pub estimated_by: Cow<'static, str>,
     /// Whether the estimate is within the tolerance over the whole span.
     pub met: Option<bool>,
     /// Time up to which the estimate is within the tolerance [s]; the end, if none was asked for.
@@ -54,7 +57,7 @@ impl Report {
             step: plan.options().step.unwrap_or_default(),
             tolerance: plan.tolerance(),
             error_estimate: None,
-            estimated_by: "not estimated",
+            estimated_by: Cow::Borrowed("not estimated"),
             met: None,
             horizon: 0.0,
             length_scale: 0.0,

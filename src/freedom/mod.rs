@@ -97,6 +97,7 @@ impl Freedom {
 
 /// A body's coordinates: how its state is written as the numbers that are integrated, and back.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Chart {
     /// All coordinates.
     Free(free::Free),

@@ -65,6 +65,13 @@ pub enum Failure {
     Interrupted,
 }
 
+impl Failure {
+    /// Whether it is the caller's own doing, which no other step would mend.
+    pub(crate) fn is_final(&self) -> bool {
+        matches!(self, Self::Interrupted | Self::Flight(FlightError::UserEffect(_)))
+    }
+}
+
 /// Bad input, or a run that cannot go on.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum RunError {

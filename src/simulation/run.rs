@@ -92,10 +92,10 @@ impl Plan {
             Ok(coarse) => {
                 let comparison = Comparison::new(&run, &coarse, 2.0, None);
                 run.report.error_estimate = Some(comparison.worst);
-                run.report.estimated_by = "against a second run with twice the step";
+                run.report.estimated_by = "against a second run with twice the step".into();
             }
-            Err(error) if error.kind == Failure::Interrupted => return Err(Box::new(error).into()),
-            Err(_) => run.report.estimated_by = "not estimated: a second run with twice the step broke off",
+            Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
+            Err(_) => run.report.estimated_by = "not estimated: a second run with twice the step broke off".into(),
         }
         Ok(run)
     }
@@ -118,7 +118,7 @@ impl Plan {
             let mut failure = None;
             let mut run = match pass(&plan, span, times, step, number, observer) {
                 Ok(run) => run,
-                Err(error) if error.kind == Failure::Interrupted => return Err(Box::new(error).into()),
+                Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
                 Err(mut error) => {
                     // what a coarse step broke, a finer one may mend: the run so far is compared too
                     let Some(run) = error.trajectory.take() else { return Err(Box::new(error).into()) };
@@ -137,7 +137,7 @@ impl Plan {
                 let comparison = Comparison::new(&run, coarse, coarse_step / step, Some(tolerance));
                 estimate = comparison.worst;
                 run.report.error_estimate = Some(comparison.within_horizon);
-                run.report.estimated_by = "against a second run with a longer step";
+                run.report.estimated_by = "against a second run with a longer step".into();
                 run.report.met = Some(comparison.worst <= tolerance);
                 run.report.horizon = comparison.horizon;
             }

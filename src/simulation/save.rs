@@ -47,8 +47,7 @@ impl Simulation {
     /// # Errors
     /// A scene with user effects, and a file that cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        // the scene says what cannot be written
-        self.plan.scene().to_text(crate::scene::file::Format::Json)?;
+        self.plan.scene().check_writable()?;
         let lanes = self.lanes.iter().map(|lane| {
             let (front, since, y) = lane.flight.saved_front();
             SavedLane {
