@@ -2,10 +2,14 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod closest;
+pub mod compare;
 pub mod contact;
 pub mod effect;
 pub mod error;
+pub mod export;
 pub mod freedom;
 pub mod impact;
 pub mod integrator;
@@ -20,6 +24,7 @@ pub mod state;
 pub mod tolerance;
 pub mod trajectory;
 
+pub use compare::{CompareOptions, ComparisonTable};
 pub use contact::Response;
 pub use effect::{AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench};
 pub use error::{Error, Result};

@@ -24,7 +24,7 @@ pub const INERTIA: f64 = 1.0e-9;
 pub const FACE_PLANARITY: f64 = 1.0e-5;
 
 /// Volume, as a fraction of the bounding box's, below which a closed surface encloses none [-]. The
-/// volume is summed to 1e-30 of the box, so what lies above is not rounding.
+/// volume is summed to about 1e-30 of the box, so what lies above is not rounding.
 pub const VOLUME: f64 = 1.0e-24;
 
 /// ε of the impact search, as a fraction of the size of the body [-], never below the rounding of its

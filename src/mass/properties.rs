@@ -26,13 +26,8 @@ impl MassProperties {
     ///
     /// # Errors
     /// Whatever no body can have; see [`MassProperties::validate`]. `place` is named in the message.
-    pub fn new(
-        place: &str,
-        mass: f64,
-        center_of_mass: impl Into<Vector3>,
-        inertia: impl Into<Matrix3>,
-    ) -> Result<Self> {
-        let given = Self { mass, center_of_mass: center_of_mass.into(), inertia: inertia.into() };
+    pub fn new(place: &str, mass: f64, center_of_mass: impl Into<Vector3>, inertia: Matrix3) -> Result<Self> {
+        let given = Self { mass, center_of_mass: center_of_mass.into(), inertia };
         given.validate(place)?;
         Ok(Self { inertia: 0.5 * (given.inertia + given.inertia.transpose()), ..given })
     }
@@ -46,14 +41,14 @@ impl MassProperties {
     /// As [`MassProperties::new`]; an inertia that was about the centre of mass all along comes out too
     /// small and is often refused for that.
     pub fn from_inertia_about(
-        point: impl Into<Vector3>,
         place: &str,
+        point: impl Into<Vector3>,
         mass: f64,
         center_of_mass: impl Into<Vector3>,
-        inertia: impl Into<Matrix3>,
+        inertia: Matrix3,
     ) -> Result<Self> {
         let center_of_mass = center_of_mass.into();
-        let central = inertia.into() - point_inertia(mass, &(point.into() - center_of_mass));
+        let central = inertia - point_inertia(mass, &(point.into() - center_of_mass));
         Self::new(place, mass, center_of_mass, central)
     }
 
@@ -165,4 +160,68 @@ pub(super) fn point_inertia(mass: f64, d: &Vector3) -> Matrix3 {
 /// Three numbers as a phrase.
 fn listed(v: &Vector3) -> String {
     format!("{:?}, {:?}, {:?}", v[0], v[1], v[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(mass: f64, inertia: [[f64; 3]; 3]) -> String {
+        MassProperties::new("body die", mass, [0.0; 3], Matrix3::from(inertia).transpose()).unwrap_err().to_string()
+    }
+
+    const GOOD: [[f64; 3]; 3] = [[2.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 4.0]];
+
+    #[test]
+    fn given_numbers_that_no_body_has_are_refused() {
+        MassProperties::new("body die", 1.0, [0.0; 3], Matrix3::from(GOOD)).unwrap();
+        for (mass, shown) in [(0.0, "0.0"), (-1.0, "-1.0"), (f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+            assert_eq!(refusal(mass, GOOD), format!("body die: mass must be positive and finite, got {shown}"));
+        }
+        assert_eq!(
+            refusal(1.0, [[2.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.4, 4.0]]),
+            "body die: inertia must be symmetric, got [[2.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.4, 4.0]]"
+        );
+        assert_eq!(
+            refusal(1.0, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]),
+            "body die: inertia must be positive definite (its principal moments are 0.0, 1.0, 1.0), \
+             got [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]]"
+        );
+        assert_eq!(
+            refusal(1.0, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.5]]),
+            "body die: inertia must be such that no principal moment exceeds the sum of the two others \
+             (they are 1.0, 1.0, 2.5), got [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.5]]"
+        );
+        let mut infinite = GOOD;
+        infinite[2][0] = f64::NAN;
+        assert!(refusal(1.0, infinite).starts_with("body die: inertia must be finite, got [["));
+        let adrift = MassProperties::new("body die", 1.0, [0.0, f64::INFINITY, 0.0], Matrix3::from(GOOD));
+        assert_eq!(adrift.unwrap_err().to_string(), "body die: center_of_mass must be finite, got [0.0, inf, 0.0]");
+    }
+
+    #[test]
+    fn what_rounding_leaves_is_accepted() {
+        // a lamina: the largest moment is the sum of the others, and rounding may put it above
+        let lamina = Matrix3::from_diagonal(&Vector3::new(0.1, 0.2, 0.1 + 0.2));
+        MassProperties::new("plate", 1.0, [0.0; 3], lamina).unwrap();
+        // half a symmetric pair's difference goes to each
+        let mut printed = Matrix3::from(GOOD);
+        printed[(0, 1)] += 1e-10;
+        let read = MassProperties::new("die", 1.0, [0.0; 3], printed).unwrap();
+        assert_eq!(read.inertia, read.inertia.transpose());
+        assert!((read.inertia[(0, 1)] - 0.1 - 0.5e-10).abs() < 1e-16);
+    }
+
+    #[test]
+    fn the_inverse_is_symmetric_and_of_a_diagonal_the_reciprocals() {
+        let diagonal = MassProperties::diagonal(1.0, Vector3::zeros(), Vector3::new(3.0, 7.0, 1e-9));
+        let reciprocals = Vector3::new(1.0 / 3.0, 1.0 / 7.0, 1.0 / 1e-9);
+        assert_eq!(diagonal.inv_inertia(), Matrix3::from_diagonal(&reciprocals));
+
+        let full = MassProperties { inertia: Matrix3::from(GOOD), ..diagonal };
+        let inverse = full.inv_inertia();
+        assert_eq!(inverse, inverse.transpose());
+        // condition number 2.4
+        assert!((inverse * full.inertia - Matrix3::identity()).amax() < 4.0 * f64::EPSILON);
+    }
 }

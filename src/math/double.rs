@@ -138,7 +138,7 @@ mod tests {
         // (1 + ε)² = 1 + 2ε + ε², whose last term a plain product drops
         let e = f64::EPSILON;
         assert_eq!(two_product(1.0 + e, 1.0 + e), (1.0 + 2.0 * e, e * e));
-        assert_eq!(two_product(0.1, 3.0).1, libm::fma(0.1, 3.0, -(0.1 * 3.0)));
+        assert_eq!(two_product(0.1, 3.0), (0.1 * 3.0, libm::fma(0.1, 3.0, -(0.1 * 3.0))));
         let d = Double::difference(1.0, 1e-20);
         assert_eq!((d.hi, d.lo), (1.0, -1e-20));
     }
