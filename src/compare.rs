@@ -4,13 +4,14 @@
 //! where the scene has one, else against a much finer run whose own error is estimated and stated.
 
 use std::fmt;
+use std::ops::ControlFlow;
 
 use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
 use crate::report::short;
 use crate::scene::{Record, RunOptions, Scene, Span};
-use crate::simulation::RunError;
+use crate::simulation::{Observer, RunError};
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
 use crate::trajectory::Trajectory;
@@ -36,6 +37,7 @@ impl Default for CompareOptions {
 
 /// One run of the comparison.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Row {
     /// Method of integration.
     pub method: Method,
@@ -56,6 +58,7 @@ pub struct Row {
 
 /// What accuracy costs in one scene.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ComparisonTable {
     /// The runs, method by method.
     pub rows: Vec<Row>,
@@ -71,6 +74,19 @@ impl Scene {
     /// # Errors
     /// Bad input, and a scene whose reference run breaks off.
     pub fn compare(&self, span: impl Into<Span>, options: &CompareOptions) -> Result<ComparisonTable, RunError> {
+        self.compare_observed(span, options, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with someone to be told how far each run is, and who may stop it all.
+    ///
+    /// # Errors
+    /// As [`compare`](Self::compare); a comparison that was stopped ends in `Failure::Interrupted`.
+    pub fn compare_observed(
+        &self,
+        span: impl Into<Span>,
+        options: &CompareOptions,
+        observer: Observer<'_>,
+    ) -> Result<ComparisonTable, RunError> {
         let span = span.into();
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
         let base = RunOptions {
@@ -81,13 +97,13 @@ impl Scene {
             ..options.run.clone()
         };
         let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
-        let reference = Reference::new(self, span, &steps, &base)?;
+        let reference = Reference::new(self, span, &steps, &base, observer)?;
 
         let mut rows = Vec::new();
         for &method in methods {
             for &step in &steps {
                 let plan = self.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
-                rows.push(row(&plan, span, &reference, options.repeats.max(1))?);
+                rows.push(row(&plan, span, &reference, options.repeats.max(1), observer)?);
             }
         }
         Ok(ComparisonTable { rows, reference: reference.name, reference_error: reference.error })
@@ -120,13 +136,19 @@ struct Reference {
 impl Reference {
     /// The finest affordable run of the method of highest order; its error by Richardson's rule from
     /// the run before.
-    fn new(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
+    fn new(
+        scene: &Scene,
+        span: Span,
+        steps: &[f64],
+        base: &RunOptions,
+        observer: Observer<'_>,
+    ) -> Result<Self, RunError> {
         let method = Method::ALL.iter().copied().max_by_key(|method| method.order()).unwrap_or(Method::Rk4);
         let shortest = steps.iter().copied().fold(f64::INFINITY, f64::min);
         let mut step = REFERENCE_STEP * shortest;
-        let fine = |step: f64| {
+        let mut fine = |step: f64| {
             let plan = scene.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
-            plan.run(span)
+            plan.run_observed(span, observer)
         };
         let mut best = fine(2.0 * step)?;
         let mut best_error = f64::INFINITY;
@@ -154,12 +176,21 @@ impl Reference {
 }
 
 /// Times one method with one step, and measures its error.
-fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32) -> Result<Row, RunError> {
+fn row(
+    plan: &Plan,
+    span: Span,
+    reference: &Reference,
+    repeats: u32,
+    observer: Observer<'_>,
+) -> Result<Row, RunError> {
     let mut seconds = Vec::new();
     let mut outcome = None;
     for _ in 0..repeats {
         let began = thread_seconds();
-        outcome = Some(plan.run(span));
+        outcome = match plan.run_observed(span, observer) {
+            Err(RunError::Simulation(broken)) if broken.kind.is_final() => return Err(broken.into()),
+            other => Some(other),
+        };
         seconds.push(thread_seconds() - began);
     }
     seconds.sort_by(f64::total_cmp);

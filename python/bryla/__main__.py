@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+
+from ._bryla import cli_main
 
 
 def main() -> int:
-    """Runs the command line; returns its exit status."""
-    from ._bryla import cli_main
-
-    return cli_main(sys.argv)
+    """Runs the command line; returns its exit code."""
+    # no Python code runs meanwhile that could see a KeyboardInterrupt
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    return cli_main(["bryla", *sys.argv[1:]])
 
 
 if __name__ == "__main__":

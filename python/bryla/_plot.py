@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._bryla import Trajectory
+    from ._bryla import ComparisonTable, Trajectory
 
 COMPONENTS = (("x", "-"), ("y", "--"), ("z", ":"))
 
@@ -83,3 +83,23 @@ def cut_at_jumps(phi: Any) -> Any:
     jumps = np.linalg.norm(np.diff(phi, axis=0), axis=1) > np.pi
     phi[1:][jumps] = np.nan
     return phi
+
+
+def comparison(table: ComparisonTable, figure: Figure | None) -> Any:
+    """Draws error against processor time, both logarithmic, one line a method.
+
+    The grey band is where errors are not told apart from that of the reference.
+    """
+    figure = new_figure(figure, 8.0, 5.0)
+    axes = figure.subplots()
+    for method in dict.fromkeys(row.method for row in table.rows):
+        rows = [row for row in table.rows if row.method == method and row.error]
+        axes.loglog([row.error for row in rows], [row.seconds_min for row in rows], "o-", markersize=4, label=method)
+    axes.axvspan(axes.get_xlim()[0], 10.0 * table.reference_error, color="0.9", zorder=0)
+    axes.invert_xaxis()
+    axes.set_xlabel("error of the end state")
+    axes.set_ylabel("processor time [s]")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize="small")
+    axes.set_title(f"against {table.reference}", fontsize="small")
+    return figure

@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod body;
+mod compare;
 mod convert;
 mod effect;
 mod error;
@@ -17,6 +18,13 @@ mod scene;
 mod shape;
 mod simulation;
 mod trajectory;
+
+/// Runs the command line with these arguments, the first being its own name; returns the exit code.
+#[pyfunction]
+#[pyo3(signature = (args))]
+fn cli_main(py: Python<'_>, args: Vec<std::ffi::OsString>) -> i32 {
+    py.detach(|| bryla::cli::main(args))
+}
 
 /// Rigid bodies, simulated with an accuracy that you choose and that the library proves and prices.
 #[pymodule]
@@ -37,6 +45,8 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<report::PyReport>()?;
     module.add_class::<report::PyCounts>()?;
     module.add_class::<report::PySeconds>()?;
+    compare::register(module)?;
+    module.add_function(wrap_pyfunction!(cli_main, module)?)?;
     module.add_function(wrap_pyfunction!(scene::load, module)?)?;
     module.add_function(wrap_pyfunction!(scene::schema, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::resume, module)?)

@@ -57,13 +57,12 @@ where
 
 /// The method of this name; none for `auto`.
 fn method(name: &str) -> Result<Option<Method>> {
-    if name == AUTO {
-        return Ok(None);
-    }
-    match name.parse() {
-        Ok(method) => Ok(Some(method)),
-        Err(_) => Err(Error::value("run", "method", format!("one of {}", method_names().join(", ")), name).into()),
-    }
+    if name == AUTO { Ok(None) } else { method_named(name).map(Some) }
+}
+
+/// The method of this name.
+pub(crate) fn method_named(name: &str) -> Result<Method> {
+    Ok(name.parse()?)
 }
 
 const AUTO: &str = "auto";

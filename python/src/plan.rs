@@ -10,7 +10,7 @@ use crate::body::PyBody;
 use crate::convert::{self, Reduced};
 use crate::error::Result;
 use crate::options::span;
-use crate::run::watched;
+use crate::run::run_watched;
 use crate::simulation::PySimulation;
 use crate::trajectory::PyTrajectory;
 
@@ -55,7 +55,7 @@ impl PyPlan {
     #[pyo3(signature = (t_span=None, *, progress=false))]
     fn run(&self, py: Python<'_>, t_span: Option<(f64, f64)>, progress: bool) -> Result<PyTrajectory> {
         let span = span(t_span, self.0.options())?;
-        watched(py, progress, |observer| self.0.run_observed(span, observer))
+        run_watched(py, progress, |observer| self.0.run_observed(span, observer))
     }
 
     fn __repr__(&self) -> String {

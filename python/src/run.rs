@@ -73,24 +73,33 @@ fn on_terminal(py: Python<'_>) -> bool {
     seen().unwrap_or(false)
 }
 
-/// Does a run with Python's lock released; warns where its tolerance is not met.
-pub(crate) fn watched(
+/// Does a run with Python looking on; warns where its tolerance is not met.
+pub(crate) fn run_watched(
     py: Python<'_>,
     progress: bool,
     run: impl FnOnce(Observer<'_>) -> Result<Trajectory, RunError> + Send,
 ) -> Result<PyTrajectory> {
+    let run = watched(py, progress, run)?;
+    warn_unless_met(py, &run)?;
+    Ok(PyTrajectory::new(run))
+}
+
+/// Does work with Python's lock released and Python looking on.
+pub(crate) fn watched<T: Send>(
+    py: Python<'_>,
+    progress: bool,
+    work: impl FnOnce(Observer<'_>) -> Result<T, RunError> + Send,
+) -> Result<T> {
     let now = Instant::now();
     let shown = (progress && on_terminal(py)).then_some(now);
     let mut watch = Watch { steps: 0, looked: now, shown, interrupted: None };
     take_raised();
-    let result = py.detach(|| run(&mut |progress| watch.told(progress)));
+    let result = py.detach(|| work(&mut |progress| watch.told(progress)));
     if watch.shown.is_some() {
         write_line(py, "")?;
         write_line(py, "")?;
     }
-    let run = result.map_err(|error| explained(py, error.into(), watch.interrupted.take()))?;
-    warn_unless_met(py, &run)?;
-    Ok(PyTrajectory::new(run))
+    result.map_err(|error| explained(py, error.into(), watch.interrupted.take()))
 }
 
 /// A failure together with the exception behind it, if there is one: that of a user's function is the

@@ -2,18 +2,20 @@
 
 use std::path::PathBuf;
 
-use bryla::Scene;
+use bryla::{CompareOptions, RunOptions, Scene};
 use bryla::scene::file::Format;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
 use crate::body::PyBody;
-use crate::convert::{self, Reduced};
+use crate::compare::PyComparisonTable;
+use crate::convert::{self, List, Reduced};
 use crate::effect;
 use crate::error::Result;
-use crate::options::{run_options, span};
+use crate::options::{method_named, run_options, span};
 use crate::plan::PyPlan;
-use crate::run::watched;
+use crate::run::{run_watched, watched};
 use crate::trajectory::PyTrajectory;
 
 /// Bodies, what acts on them, and how to run them.
@@ -162,7 +164,59 @@ impl PyScene {
     ) -> Result<PyTrajectory> {
         let options = run_options(&self.0.run, "run", options)?;
         let span = span(t_span, &self.0.run)?;
-        watched(py, progress, |observer| self.0.run_observed(span, &options, observer))
+        run_watched(py, progress, |observer| self.0.run_observed(span, &options, observer))
+    }
+
+    /// What accuracy costs: error against time for several methods and steps, a ComparisonTable.
+    ///
+    /// Error and time come from the same run. The error is that of the end state.
+    ///
+    /// Parameters
+    /// ----------
+    /// t_span : (float, float), optional
+    ///     Start and end [s]; the scene's own by default.
+    /// methods : list of str, optional
+    ///     Methods of integration; all by default.
+    /// steps : list of float, optional
+    ///     Lengths of a step [s]; ten halvings from a first guess by default.
+    /// repeats : int
+    ///     How often each run is timed; the least and the middle time are kept.
+    /// length_scale, orientation, projection, finder, eps
+    ///     As in run.
+    /// progress : bool
+    ///     Whether a progress line is shown on a terminal.
+    #[pyo3(
+        signature = (t_span=None, *, methods=None, steps=None, repeats=5, progress=false, **options),
+        text_signature = "($self, t_span=None, *, methods=None, steps=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, progress=False)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "those of the core, and two of Python")]
+    fn compare(
+        &self,
+        py: Python<'_>,
+        t_span: Option<(f64, f64)>,
+        methods: Option<List<String>>,
+        steps: Option<List<f64>>,
+        repeats: u32,
+        progress: bool,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> Result<PyComparisonTable> {
+        for name in ["tolerance", "method", "step", "t_eval", "estimate", "record"] {
+            if options.is_some_and(|options| options.contains(name).unwrap_or(false)) {
+                let message = format!("compare() got an unexpected keyword argument '{name}'");
+                return Err(PyTypeError::new_err(message).into());
+            }
+        }
+        let run = run_options(&self.0.run, "compare", options)?;
+        let methods = methods.map_or_else(Vec::new, |names| names.0);
+        let options = CompareOptions {
+            methods: methods.iter().map(|name| method_named(name)).collect::<Result<_>>()?,
+            steps: steps.map_or_else(Vec::new, |steps| steps.0),
+            repeats,
+            run: RunOptions { method: None, step: None, ..run },
+        };
+        let span = span(t_span, &self.0.run)?;
+        let table = watched(py, progress, |observer| self.0.compare_observed(span, &options, observer))?;
+        Ok(PyComparisonTable(table))
     }
 
     /// Writes the scene to a file, .toml or .json.

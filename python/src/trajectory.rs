@@ -311,6 +311,14 @@ motion_class! {
             Ok(PyPose(self.run().pose(name, t)?))
         }
 
+        /// Writes the samples to a file, .csv, .json or .npz, with the names that they have here.
+        #[pyo3(signature = (path))]
+        fn write(&self, path: std::path::PathBuf) -> Result<()> {
+            let written = self.run().write(path);
+            check_raised()?;
+            Ok(written?)
+        }
+
         /// Draws where the bodies are, how they turn, and where the energy goes, and returns the figure;
         /// needs matplotlib.
         ///
