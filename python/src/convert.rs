@@ -123,7 +123,9 @@ impl Plain for [[f64; 3]; 3] {
     fn from_python(value: List<Numbers<3>>) -> Result<Self> {
         let rows: Vec<_> = value.0.into_iter().map(|row| row.0).collect();
         let count = rows.len();
-        Ok(rows.try_into().map_err(|_| PyTypeError::new_err(format!("3 rows of 3 numbers wanted, got {count} rows")))?)
+        Ok(rows
+            .try_into()
+            .map_err(|_| PyTypeError::new_err(format!("3 rows of 3 numbers wanted, got {count} rows")))?)
     }
 }
 

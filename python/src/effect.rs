@@ -316,7 +316,9 @@ impl PyUserEffect {
     ) -> Result<Self> {
         for (field, given) in [("function", Some(&function)), ("energy", energy.as_ref())] {
             if let Some(given) = given.filter(|given| !given.bind(py).is_callable()) {
-                return Err(PyTypeError::new_err(format!("{field} must be callable, got {}", given.bind(py).repr()?)).into());
+                return Err(
+                    PyTypeError::new_err(format!("{field} must be callable, got {}", given.bind(py).repr()?)).into()
+                );
             }
         }
         let [couples, bodies] = [couples, bodies].map(|names| names.map(|names| names.0));

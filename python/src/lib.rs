@@ -49,5 +49,8 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(cli_main, module)?)?;
     module.add_function(wrap_pyfunction!(scene::load, module)?)?;
     module.add_function(wrap_pyfunction!(scene::schema, module)?)?;
-    module.add_function(wrap_pyfunction!(simulation::resume, module)?)
+    module.add_function(wrap_pyfunction!(simulation::resume, module)?)?;
+
+    // the package lists what is public
+    module.delattr("__all__")
 }

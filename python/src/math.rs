@@ -26,11 +26,7 @@ const MATRIX: &[usize] = &[3, 3];
 pub(crate) struct PyPose(pub(crate) Pose);
 
 impl PyPose {
-    fn map<'py>(
-        py: Python<'py>,
-        given: &ArrayLike<'py>,
-        f: impl Fn(&Vector3) -> Vector3,
-    ) -> PyResult<Array<'py>> {
+    fn map<'py>(py: Python<'py>, given: &ArrayLike<'py>, f: impl Fn(&Vector3) -> Vector3) -> PyResult<Array<'py>> {
         map(py, given, [VECTOR, VECTOR], |v: [f64; 3]| f(&v.into()).into())
     }
 }

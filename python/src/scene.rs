@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use bryla::{CompareOptions, RunOptions, Scene};
 use bryla::scene::file::Format;
+use bryla::{CompareOptions, RunOptions, Scene};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};

@@ -100,10 +100,7 @@ impl PySimulation {
     /// Motion of a body at the time to which the simulation was advanced.
     #[pyo3(signature = (name))]
     fn state(&self, name: &str) -> Result<PyBodyMotion> {
-        let simulation = self.idle()?;
-        let state = simulation.state(name)?;
-        let id = simulation.plan().scene().id(name)?;
-        Ok(PyBodyMotion(simulation.plan().bodies()[id.index()].motion(&state)))
+        Ok(PyBodyMotion(self.idle()?.motion(name)?))
     }
 
     /// Writes the running state to a file, conventionally .bryla; resume goes on from it with the same

@@ -215,7 +215,7 @@ macro_rules! motion_class {
                 self.0.reactions(py, |load| load.force)
             }
 
-            #[doc = concat!("Torque about the centre of mass with which its freedom holds each body, world axes [N·m]: array ", $axes, "3).")]
+            #[doc = concat!("Torque about each centre of mass with which the freedom holds, world axes [N·m]: array ", $axes, "3).")]
             #[getter]
             fn reaction_torque<'py>(&self, py: Python<'py>) -> Result<Array<'py>> {
                 self.0.reactions(py, |load| load.torque)

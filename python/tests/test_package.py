@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bryla
 import pytest
+import stub_docs
 
 PACKAGE = Path(bryla.__file__).parent
 
@@ -104,3 +105,11 @@ def test_the_front_page_example():
 
 def test_hints_of_the_exceptions_resolve():
     assert typing.get_type_hints(bryla.SimulationError, vars(bryla))["time"] is float
+
+
+@pytest.mark.parametrize("name", stub_docs.MODULES)
+def test_the_stubs_carry_the_documentation(name):
+    tree = ast.parse((PACKAGE / f"{name}.pyi").read_text(encoding="utf-8"))
+    module = sys.modules[f"bryla.{name}"]
+    for node, doc in stub_docs.documented(tree, module):
+        assert ast.get_docstring(node) == doc, f"{node.name}: run python python/stub_docs.py"

@@ -22,7 +22,9 @@ def ball_scene(*effects):
     scene = bryla.Scene()
     for name, x in [("a", 0.0), ("b", 1.0)]:
         ball = bryla.Sphere(0.1)
-        body = bryla.Body(name, ball, density=1, position=(x, 0, 0), velocity=(0, 1, 2), angular_velocity=(1, 2, 3), collides=False)
+        body = bryla.Body(
+            name, ball, density=1, position=(x, 0, 0), velocity=(0, 1, 2), angular_velocity=(1, 2, 3), collides=False
+        )
         scene.add(body)
     for effect in effects:
         scene.add_effect(effect)

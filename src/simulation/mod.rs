@@ -187,16 +187,24 @@ impl Simulation {
     /// # Errors
     /// A name that no body has.
     pub fn state(&self, name: &str) -> Result<BodyState> {
+        Ok(self.motion(name)?.state())
+    }
+
+    /// Motion of a body at the time to which the simulation was advanced.
+    ///
+    /// # Errors
+    /// A name that no body has.
+    pub fn motion(&self, name: &str) -> Result<BodyMotion> {
         let index = self.plan.scene().id(name)?.index();
         for lane in &self.lanes {
             let members = &self.plan.groups()[lane.group].members;
             if let Some(place) = members.iter().position(|&i| i == index && !self.plan.bodies()[i].fixed) {
                 let mut motions = lane.motions.clone();
                 lane.flight.at(self.time, &mut motions);
-                return Ok(motions[place].state());
+                return Ok(motions[place]);
             }
         }
-        Ok(self.plan.bodies()[index].start.state())
+        Ok(self.plan.bodies()[index].start)
     }
 
     /// What has been done so far.
