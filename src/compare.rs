@@ -9,11 +9,11 @@ use std::ops::ControlFlow;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
-use crate::report::short;
 use crate::scene::{Record, RunOptions, Scene, Span};
-use crate::simulation::{Observer, RunError};
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
+use crate::simulation::{Observer, RunError};
+use crate::text::short;
 use crate::trajectory::Trajectory;
 
 /// What is compared.
@@ -89,13 +89,8 @@ impl Scene {
     ) -> Result<ComparisonTable, RunError> {
         let span = span.into();
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
-        let base = RunOptions {
-            tolerance: None,
-            t_eval: None,
-            estimate: false,
-            record: Record::End,
-            ..options.run.clone()
-        };
+        let base =
+            RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
         let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
         let reference = Reference::new(self, span, &steps, &base, observer)?;
 
@@ -176,13 +171,7 @@ impl Reference {
 }
 
 /// Times one method with one step, and measures its error.
-fn row(
-    plan: &Plan,
-    span: Span,
-    reference: &Reference,
-    repeats: u32,
-    observer: Observer<'_>,
-) -> Result<Row, RunError> {
+fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32, observer: Observer<'_>) -> Result<Row, RunError> {
     let mut seconds = Vec::new();
     let mut outcome = None;
     for _ in 0..repeats {
@@ -229,7 +218,11 @@ impl ComparisonTable {
 impl fmt::Display for ComparisonTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "Error of the end state against {}", self.reference)?;
-        writeln!(f, "{:<20} {:>10} {:>11} {:>12} {:>10} {:>10}", "method", "step [s]", "error", "evaluations", "time [s]", "order")?;
+        writeln!(
+            f,
+            "{:<20} {:>10} {:>11} {:>12} {:>10} {:>10}",
+            "method", "step [s]", "error", "evaluations", "time [s]", "order"
+        )?;
         let mut before: Option<&Row> = None;
         for row in &self.rows {
             let error = match row.error {

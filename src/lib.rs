@@ -2,6 +2,8 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "serde")]
+pub mod catalogue;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod closest;
@@ -11,6 +13,7 @@ pub mod effect;
 pub mod error;
 pub mod export;
 pub mod freedom;
+pub mod guide;
 pub mod impact;
 pub mod integrator;
 pub mod mass;
@@ -21,12 +24,15 @@ pub mod scene;
 pub mod shape;
 pub mod simulation;
 pub mod state;
+mod text;
 pub mod tolerance;
 pub mod trajectory;
 
 pub use compare::{CompareOptions, ComparisonTable};
 pub use contact::Response;
-pub use effect::{AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench};
+pub use effect::{
+    AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench,
+};
 pub use error::{Error, Result};
 pub use freedom::Freedom;
 pub use impact::Finder;

@@ -5,6 +5,7 @@ use std::fmt;
 
 use crate::integrator::{Counts, Method};
 use crate::plan::Plan;
+use crate::text::short;
 
 /// Time spent by stage [s of the thread's clock].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -84,7 +85,11 @@ impl fmt::Display for Report {
             _ => writeln!(f)?,
         }
         writeln!(f, "  scale      positions over {} m, orientations in rad", short(self.length_scale))?;
-        writeln!(f, "  drift      orientation {} off its sphere before projection", short(self.counts.orientation_drift))?;
+        writeln!(
+            f,
+            "  drift      orientation {} off its sphere before projection",
+            short(self.counts.orientation_drift)
+        )?;
         write!(f, "  work       {} steps, {} evaluations", self.counts.steps, self.counts.evaluations)?;
         if self.impacts > 0 {
             write!(f, ", {} impacts ({} rounds of the finder)", self.impacts, self.impact_iterations)?;
@@ -93,17 +98,4 @@ impl fmt::Display for Report {
         let Seconds { compile, run, estimate } = self.seconds;
         write!(f, "  time       {} s run, {} s estimate, {} s compile", short(run), short(estimate), short(compile))
     }
-}
-
-/// A number with four digits, in powers of ten where it is small or large.
-pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    if size == 0.0 {
-        return "0".to_owned();
-    }
-    if !(1e-3..1e5).contains(&size) {
-        return format!("{x:.3e}");
-    }
-    let text = format!("{x:.*}", (3 - libm::floor(libm::log10(size)) as i32).clamp(0, 6) as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

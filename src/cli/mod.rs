@@ -19,9 +19,9 @@ use clap::{Args, Parser, Subcommand};
 use crate::compare::CompareOptions;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
-use crate::report::short;
 use crate::scene::{Orientation, RunOptions, Scene, Span};
 use crate::simulation::{Progress, RunError};
+use crate::text::short;
 use crate::trajectory::Trajectory;
 
 /// Everything went well.
@@ -257,7 +257,12 @@ fn summary(run: &Trajectory) -> Result<String> {
     let vector = |v: &[f64]| v.iter().map(|&x| short(x)).collect::<Vec<_>>().join(", ");
     for (body, motion) in run.plan().bodies().iter().zip(run.motions(last)).filter(|(body, _)| !body.fixed) {
         let q = crate::math::quaternion::to_scalar_first(&motion.orientation);
-        text += &format!("  {:<10} position ({}) m, orientation ({})\n", body.name, vector(motion.position.as_slice()), vector(&q));
+        text += &format!(
+            "  {:<10} position ({}) m, orientation ({})\n",
+            body.name,
+            vector(motion.position.as_slice()),
+            vector(&q)
+        );
         text += &format!(
             "  {:<10} velocity ({}) m/s, angular velocity ({}) rad/s\n",
             "",
@@ -314,8 +319,14 @@ fn compare(path: &Path, options: CompareOptions, span: Option<Vec<f64>>, out: &[
     for path in out {
         let text = match path.extension().and_then(|e| e.to_str()) {
             Some("csv") => table.to_csv(),
-            Some("svg") => table.to_svg(&format!("What accuracy costs: {}", path.file_stem().unwrap_or_default().to_string_lossy()))?,
-            _ => return Err(Error::File { path: path.display().to_string(), reason: "a comparison is written as .csv or .svg".into() }),
+            Some("svg") => table
+                .to_svg(&format!("What accuracy costs: {}", path.file_stem().unwrap_or_default().to_string_lossy()))?,
+            _ => {
+                return Err(Error::File {
+                    path: path.display().to_string(),
+                    reason: "a comparison is written as .csv or .svg".into(),
+                });
+            }
         };
         if let Err(error) = std::fs::write(path, text) {
             complain(&format!("{}: {error}", path.display()));

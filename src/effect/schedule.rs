@@ -29,7 +29,12 @@ impl Schedule {
     pub(crate) fn validate(schedule: Option<&Self>, place: &str) -> Result<()> {
         let Some(Self(pairs)) = schedule else { return Ok(()) };
         if pairs.is_empty() {
-            return Err(Error::value(place, "schedule", "at least one (time, factor); leave it out for always on", pairs));
+            return Err(Error::value(
+                place,
+                "schedule",
+                "at least one (time, factor); leave it out for always on",
+                pairs,
+            ));
         }
         if let Some(bad) = pairs.iter().find(|(time, factor)| !time.is_finite() || !factor.is_finite()) {
             return Err(Error::value(place, "schedule", "pairs of finite numbers (time, factor)", bad));

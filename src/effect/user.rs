@@ -38,7 +38,14 @@ pub struct UserEffect {
 impl UserEffect {
     /// An effect that acts on every body alone.
     pub fn new(function: impl Fn(f64, &[BodyMotion]) -> UserLoads + Send + Sync + 'static) -> Self {
-        Self { function: Arc::new(function), couples: None, bodies: None, energy: None, failure: Arc::default(), attached: None }
+        Self {
+            function: Arc::new(function),
+            couples: None,
+            bodies: None,
+            energy: None,
+            failure: Arc::default(),
+            attached: None,
+        }
     }
 
     /// On these bodies together, in this order.
@@ -57,7 +64,10 @@ impl UserEffect {
 
     /// Potential energy [J] of the bodies the function is given, at a time [s].
     #[must_use]
-    pub fn energy(mut self, energy: impl Fn(f64, &[BodyMotion]) -> Result<f64, String> + Send + Sync + 'static) -> Self {
+    pub fn energy(
+        mut self,
+        energy: impl Fn(f64, &[BodyMotion]) -> Result<f64, String> + Send + Sync + 'static,
+    ) -> Self {
         self.energy = Some(Arc::new(energy));
         self
     }
@@ -81,7 +91,11 @@ impl UserEffect {
         match (self.function)(at.time, bodies) {
             Ok(loads) if loads.len() == bodies.len() => loads,
             Ok(loads) => {
-                self.fail(format!("must return one (force, torque) per body: {} wanted, got {}", bodies.len(), loads.len()));
+                self.fail(format!(
+                    "must return one (force, torque) per body: {} wanted, got {}",
+                    bodies.len(),
+                    loads.len()
+                ));
                 nothing()
             }
             Err(message) => {

@@ -35,7 +35,9 @@ impl ComparisonTable {
     fn draw(&self, text: &mut String, title: &str) -> std::result::Result<(), String> {
         let points = |method: Method| -> Vec<(f64, f64)> {
             let rows = self.rows.iter().filter(|row| row.method == method);
-            rows.filter_map(|row| Some((row.error.filter(|e| *e > 0.0)?, row.seconds_min))).filter(|p| p.1 > 0.0).collect()
+            rows.filter_map(|row| Some((row.error.filter(|e| *e > 0.0)?, row.seconds_min)))
+                .filter(|p| p.1 > 0.0)
+                .collect()
         };
         let mut methods: Vec<Method> = Vec::new();
         for row in &self.rows {

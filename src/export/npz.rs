@@ -14,8 +14,7 @@ pub(super) fn write(run: &Trajectory) -> io::Result<Vec<u8>> {
     let mut archive = NpzWriter::new(&mut bytes);
     for array in arrays(run).map_err(io::Error::other)? {
         let shape: Vec<u64> = array.shape.iter().map(|&n| n as u64).collect();
-        let mut writer =
-            archive.array(array.name, FileOptions::default())?.default_dtype().shape(&shape).begin_nd()?;
+        let mut writer = archive.array(array.name, FileOptions::default())?.default_dtype().shape(&shape).begin_nd()?;
         writer.extend(array.data)?;
         writer.finish()?;
     }

@@ -196,10 +196,7 @@ impl Chart {
 fn missing_load(motion: &BodyMotion, load: &Load, a: &Vector3, alpha: &Vector3) -> Load {
     let inertia = motion.rotation * motion.inertia_body * motion.rotation.transpose();
     let w = &motion.angular_velocity;
-    Load {
-        force: motion.mass * a - load.force,
-        torque: inertia * alpha + w.cross(&(inertia * w)) - load.torque,
-    }
+    Load { force: motion.mass * a - load.force, torque: inertia * alpha + w.cross(&(inertia * w)) - load.torque }
 }
 
 /// The direction of a vector given by the user.

@@ -33,7 +33,14 @@ impl<P: Problem, K: Kernel<P::Y>> FixedStep<P, K> {
 }
 
 impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for FixedStep<P, K> {
-    fn advance(&mut self, problem: &mut P, front: &mut Front<P::Y>, limit: f64, segment: &mut Segment, counts: &mut Counts) {
+    fn advance(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        limit: f64,
+        segment: &mut Segment,
+        counts: &mut Counts,
+    ) {
         let at = front.moment();
         if !self.slope_known {
             problem.rate(at, &front.y, &mut self.slope);
@@ -46,8 +53,7 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for FixedStep<P, K> {
         let h = if last { left } else { self.step };
         self.start.clone_from(&front.y);
         self.kernel.step(problem, at, &mut front.y, &self.slope, h);
-        let strayed =
-            if self.projection { problem.project(&mut front.y) } else { problem.orientation_error(&front.y) };
+        let strayed = if self.projection { problem.project(&mut front.y) } else { problem.orientation_error(&front.y) };
         front.time = if last { crate::math::sum::Time::new(limit) } else { front.time + h };
 
         // the motion between the ends is the cubic through both states and slopes

@@ -112,7 +112,8 @@ impl<P: Problem> Flight for Integration<P> {
         let Self { problem, integrator, front, start, segment, counts } = self;
         *start = front.time;
         integrator.advance(problem, front, limit, segment, counts);
-        if front.y.as_ref().iter().sum::<f64>().is_finite() {
+        // the whole motion of the step, without branches so that it costs a few nanoseconds
+        if segment.coefficients.iter().fold(true, |finite, c| finite & c.is_finite()) {
             return Ok(());
         }
         Err(problem.take_failure().map_or(FlightError::NotFinite, FlightError::UserEffect))

@@ -113,7 +113,14 @@ impl<Y> Front<Y> {
 /// Advances a problem, a step at a call.
 pub trait Integrator<P: Problem>: Debug + Send {
     /// Takes one step, which ends at `limit` or before it, and writes its motion into `segment`.
-    fn advance(&mut self, problem: &mut P, front: &mut Front<P::Y>, limit: f64, segment: &mut Segment, counts: &mut Counts);
+    fn advance(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        limit: f64,
+        segment: &mut Segment,
+        counts: &mut Counts,
+    );
 
     /// Forgets what it knew of the path: the front has jumped.
     fn restart(&mut self);

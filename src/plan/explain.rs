@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{FlightGroup, Plan};
 use crate::freedom::Chart;
-use crate::report::short;
+use crate::text::{counted, short};
 
 impl Plan {
     /// What runs, what is left out, and why.
@@ -40,7 +40,8 @@ impl Plan {
         for (number, group) in self.groups.iter().enumerate() {
             self.write_group(out, number, group)?;
         }
-        let pairs: Vec<_> = self.groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| (group, pair))).collect();
+        let pairs: Vec<_> =
+            self.groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| (group, pair))).collect();
         for (i, (group, pair)) in pairs.iter().enumerate() {
             let names = [group.members[pair.member], pair.obstacle].map(|i| self.bodies[i].name.as_str());
             let what = match pair.material.response {
@@ -48,7 +49,13 @@ impl Plan {
                 crate::contact::Response::Stick => "stick".to_owned(),
             };
             let finder = self.options.finder.name();
-            writeln!(out, "  {:<10} {}–{}: {what}; time of contact by {finder}", label(i, "pairs"), names[0], names[1])?;
+            writeln!(
+                out,
+                "  {:<10} {}–{}: {what}; time of contact by {finder}",
+                label(i, "pairs"),
+                names[0],
+                names[1]
+            )?;
         }
         for (i, left) in self.left_out.iter().enumerate() {
             writeln!(out, "  {:<10} {}: {}", label(i, "left out"), left.what, left.why)?;
@@ -94,8 +101,4 @@ impl Plan {
 /// The label on the first line of a block, blanks on the others.
 fn label(line: usize, name: &str) -> &str {
     if line == 0 { name } else { "" }
-}
-
-fn counted(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }

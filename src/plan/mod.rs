@@ -210,7 +210,8 @@ impl Plan {
 
     /// The same plan with another step [s].
     pub(crate) fn with_step(&self, step: f64) -> Self {
-        let options = RunOptions { step: Some(step), tolerance: None, method: Some(self.method), ..self.options.clone() };
+        let options =
+            RunOptions { step: Some(step), tolerance: None, method: Some(self.method), ..self.options.clone() };
         Self { options, ..self.clone() }
     }
 
@@ -461,11 +462,16 @@ fn pairs(
                 );
                 return Err(Error::refused(what, reason));
             };
+            if scene.bodies[body].friction * scene.bodies[obstacle].friction > 0.0 {
+                let why = "impacts are answered without friction".to_owned();
+                left_out.push(LeftOut { what: format!("friction of {}–{}", bodies[a].name, bodies[b].name), why });
+            }
             let plane = Plane::new(half_space, &bodies[obstacle].start);
             let size = bodies[body].radius;
             let coordinates = bodies[body].start.position.amax() + plane.offset.abs() + size;
             if let Some(eps) = options.eps.filter(|eps| *eps < EPS_ROUNDING * coordinates) {
-                let allowed = format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
+                let allowed =
+                    format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
                 return Err(Error::value("run", "eps", allowed, eps));
             }
             let [a, b] = [body, obstacle].map(|i| (scene.bodies[i].restitution, scene.bodies[i].response));

@@ -61,7 +61,9 @@ impl Scene {
         self.check_writable()?;
         match format {
             Format::Toml => toml::to_string(self).map_err(|error| Error::refused("scene", error.to_string())),
-            Format::Json => serde_json::to_string_pretty(self).map_err(|error| Error::refused("scene", error.to_string())),
+            Format::Json => {
+                serde_json::to_string_pretty(self).map_err(|error| Error::refused("scene", error.to_string()))
+            }
         }
     }
 
@@ -116,5 +118,7 @@ fn with_caret(text: &str, error: &serde_json::Error) -> String {
     let source = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
     let margin = " ".repeat(line.to_string().len());
     let caret = " ".repeat(column.saturating_sub(1));
-    format!("JSON parse error at line {line}, column {column}\n{margin} |\n{line} | {source}\n{margin} | {caret}^\n{message}")
+    format!(
+        "JSON parse error at line {line}, column {column}\n{margin} |\n{line} | {source}\n{margin} | {caret}^\n{message}"
+    )
 }

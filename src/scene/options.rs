@@ -270,7 +270,9 @@ impl RunOptions {
             return Ok(vec![start, end]);
         }
         let Some(times) = &self.t_eval else {
-            return Ok((0..SAMPLES).map(|i| if i + 1 == SAMPLES { end } else { start + (end - start) * i as f64 / (SAMPLES - 1) as f64 }).collect());
+            return Ok((0..SAMPLES)
+                .map(|i| if i + 1 == SAMPLES { end } else { start + (end - start) * i as f64 / (SAMPLES - 1) as f64 })
+                .collect());
         };
         if times.is_empty() {
             return Err(Error::value("run", "t_eval", "at least one time", times));

@@ -218,7 +218,12 @@ impl Simulation {
     }
 
     /// Advances one lane until its motion is known at `to` [s].
-    fn advance_lane(&mut self, lane: usize, to: f64, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+    fn advance_lane(
+        &mut self,
+        lane: usize,
+        to: f64,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
         self.answer_touches(lane, 0, record)?;
         while self.lanes[lane].flight.front() < to {
             self.step_lane(lane, record)?;
@@ -309,7 +314,12 @@ impl Simulation {
     }
 
     /// Answers every pair that touches and approaches at the front, until none approaches.
-    fn answer_touches(&mut self, index: usize, iterations: u32, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+    fn answer_touches(
+        &mut self,
+        index: usize,
+        iterations: u32,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
         let pairs = &plan.groups()[self.lanes[index].group].pairs;
         if pairs.is_empty() {
@@ -324,7 +334,8 @@ impl Simulation {
                 let motion = &motions[pair.member];
                 let gap = pair.collider.gap(motion, &pair.plane);
                 let eps = self.eps(pair, motion);
-                (gap <= eps).then(|| (pair, approaching(pair, motion, gap.max(0.0) + TOUCH_GAP * pair.size)))
+                (gap <= eps)
+                    .then(|| (pair, approaching(pair, motion, gap.max(0.0) + TOUCH_GAP * pair.size)))
                     .filter(|(_, touching)| !touching.is_empty())
             }) else {
                 return Ok(());

@@ -36,7 +36,12 @@ impl Scene {
     ///
     /// # Errors
     /// As [`run`](Self::run); a run that was stopped ends in [`Failure::Interrupted`].
-    pub fn run_observed(&self, span: impl Into<Span>, options: &RunOptions, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    pub fn run_observed(
+        &self,
+        span: impl Into<Span>,
+        options: &RunOptions,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let began = thread_seconds();
         let plan = self.compile(options)?;
         let compile = thread_seconds() - began;
@@ -74,7 +79,13 @@ impl Plan {
     }
 
     /// One run with the step asked for, and one with twice the step to estimate its error.
-    fn run_with_step(&self, span: Span, times: &[f64], step: f64, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    fn run_with_step(
+        &self,
+        span: Span,
+        times: &[f64],
+        step: f64,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let plan = Arc::new(self.clone());
         let began = thread_seconds();
         let mut run = pass(&plan, span, times, step, 1, observer).map_err(Box::new)?;
@@ -101,7 +112,13 @@ impl Plan {
     }
 
     /// Shortens the step until two runs agree to the tolerance.
-    fn run_to_tolerance(&self, span: Span, times: &[f64], tolerance: f64, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    fn run_to_tolerance(
+        &self,
+        span: Span,
+        times: &[f64],
+        tolerance: f64,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let length = span.end - span.start;
         let floor = self.rounding_floor(length);
         if tolerance < floor {

@@ -93,7 +93,8 @@ impl Simulation {
             return Err(file_error(path, &"its state does not belong to its scene"));
         }
         for (group, (lane, saved)) in simulation.lanes.iter_mut().zip(saved.lanes).enumerate() {
-            lane.continue_from(&plan, group, step, saved).ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
+            lane.continue_from(&plan, group, step, saved)
+                .ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
         }
         simulation.events = saved.events;
         simulation.iterations = saved.iterations;
@@ -103,7 +104,13 @@ impl Simulation {
 
 impl Lane {
     /// Takes over a saved lane; none where its numbers do not fit.
-    fn continue_from(&mut self, plan: &crate::plan::Plan, group: usize, step: f64, saved: SavedLane) -> Option<Result<()>> {
+    fn continue_from(
+        &mut self,
+        plan: &crate::plan::Plan,
+        group: usize,
+        step: f64,
+        saved: SavedLane,
+    ) -> Option<Result<()>> {
         if saved.motions.len() != self.motions.len() {
             return None;
         }
