@@ -4,16 +4,17 @@
 //! where the scene has one, else against a much finer run whose own error is estimated and stated.
 
 use std::fmt;
+use std::ops::ControlFlow;
 
 use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
-use crate::scene::{Record, RunOptions, Scene, Span};
-use crate::state::BodyState;
 use crate::reference;
-use crate::simulation::RunError;
+use crate::scene::{Record, RunOptions, Scene, Span};
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
+use crate::simulation::{Observer, RunError};
+use crate::state::BodyState;
 use crate::text::short;
 use crate::trajectory::Trajectory;
 
@@ -38,6 +39,7 @@ impl Default for CompareOptions {
 
 /// One run of the comparison.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Row {
     /// Method of integration.
     pub method: Method,
@@ -58,6 +60,7 @@ pub struct Row {
 
 /// What accuracy costs in one scene.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ComparisonTable {
     /// The runs, method by method.
     pub rows: Vec<Row>,
@@ -73,18 +76,31 @@ impl Scene {
     /// # Errors
     /// Bad input, and a scene whose reference run breaks off.
     pub fn compare(&self, span: impl Into<Span>, options: &CompareOptions) -> Result<ComparisonTable, RunError> {
+        self.compare_observed(span, options, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with someone to be told how far each run is, and who may stop it all.
+    ///
+    /// # Errors
+    /// As [`compare`](Self::compare); a comparison that was stopped ends in `Failure::Interrupted`.
+    pub fn compare_observed(
+        &self,
+        span: impl Into<Span>,
+        options: &CompareOptions,
+        observer: Observer<'_>,
+    ) -> Result<ComparisonTable, RunError> {
         let span = span.into();
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
         let base =
             RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
         let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
-        let reference = Reference::new(self, span, &steps, &base)?;
+        let reference = Reference::new(self, span, &steps, &base, observer)?;
 
         let mut rows = Vec::new();
         for &method in methods {
             for &step in &steps {
                 let plan = self.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
-                rows.push(row(&plan, span, &reference, options.repeats.max(1))?);
+                rows.push(row(&plan, span, &reference, options.repeats.max(1), observer)?);
             }
         }
         Ok(ComparisonTable { rows, reference: reference.name, reference_error: reference.error })
@@ -116,8 +132,14 @@ struct Reference {
 }
 
 impl Reference {
-    fn new(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
-        let best = Self::finest(scene, span, steps, base)?;
+    fn new(
+        scene: &Scene,
+        span: Span,
+        steps: &[f64],
+        base: &RunOptions,
+        observer: Observer<'_>,
+    ) -> Result<Self, RunError> {
+        let best = Self::finest(scene, span, steps, base, observer)?;
         let plan = scene.compile(base)?;
         Ok(match reference::closed_form(&plan, span.end - span.start) {
             Some(states) => Self { name: "the closed form".to_owned(), error: 0.0, states, ..best },
@@ -127,13 +149,19 @@ impl Reference {
 
     /// The finest affordable run of the method of highest order; its error by Richardson's rule from
     /// the run before.
-    fn finest(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
+    fn finest(
+        scene: &Scene,
+        span: Span,
+        steps: &[f64],
+        base: &RunOptions,
+        observer: Observer<'_>,
+    ) -> Result<Self, RunError> {
         let method = Method::ALL.iter().copied().max_by_key(|method| method.order()).unwrap_or(Method::Rk4);
         let mut step = REFERENCE_STEP * steps.iter().copied().fold(f64::INFINITY, f64::min);
         let divisor = libm::pow(2.0, f64::from(method.order())) - 1.0;
-        let fine = |step: f64| -> Result<Self, RunError> {
+        let mut fine = |step: f64| -> Result<Self, RunError> {
             let plan = scene.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
-            let run = plan.run(span)?;
+            let run = plan.run_observed(span, observer)?;
             let name = format!("{method} with h = {} s", short(step));
             let states = run.states(run.times().len() - 1).to_vec();
             Ok(Self { name, error: f64::INFINITY, states, length_scale: run.report().length_scale })
@@ -161,12 +189,15 @@ impl Reference {
 }
 
 /// Times one method with one step, and measures its error.
-fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32) -> Result<Row, RunError> {
+fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32, observer: Observer<'_>) -> Result<Row, RunError> {
     let mut seconds = Vec::new();
     let mut outcome = None;
     for _ in 0..repeats {
         let began = thread_seconds();
-        outcome = Some(plan.run(span));
+        outcome = match plan.run_observed(span, observer) {
+            Err(RunError::Simulation(broken)) if broken.kind.is_final() => return Err(broken.into()),
+            other => Some(other),
+        };
         seconds.push(thread_seconds() - began);
     }
     seconds.sort_by(f64::total_cmp);

@@ -1,5 +1,6 @@
 //! What ran, what it cost, and how far the result is to be trusted.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use crate::integrator::{Control, Counts, Method};
@@ -8,6 +9,7 @@ use crate::text::short;
 
 /// Time spent by stage [s of the thread's clock].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Seconds {
     /// Checking the scene and making the plan.
     pub compile: f64,
@@ -19,6 +21,7 @@ pub struct Seconds {
 
 /// What ran, what it cost, and how far the result is to be trusted.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// Method of integration.
     pub method: Method,
@@ -30,7 +33,7 @@ pub struct Report {
     /// orientation error in radians, over all samples and bodies up to the horizon.
     pub error_estimate: Option<f64>,
     /// How the error was estimated.
-    pub estimated_by: &'static str,
+    pub estimated_by: Cow<'static, str>,
     /// Whether the estimate is within the tolerance over the whole span.
     pub met: Option<bool>,
     /// Time up to which the estimate is within the tolerance [s]; the end, if none was asked for.
@@ -55,7 +58,7 @@ impl Report {
             control: None,
             tolerance: plan.tolerance(),
             error_estimate: None,
-            estimated_by: "not estimated",
+            estimated_by: Cow::Borrowed("not estimated"),
             met: None,
             horizon: 0.0,
             length_scale: 0.0,
@@ -63,6 +66,16 @@ impl Report {
             impacts: 0,
             impact_iterations: 0,
             seconds: Seconds::default(),
+        }
+    }
+}
+
+impl Report {
+    /// Length of a step [s]; none where errors decided it.
+    pub fn step(&self) -> Option<f64> {
+        match self.control {
+            Some(Control::Step(step)) => Some(step),
+            _ => None,
         }
     }
 }

@@ -6,10 +6,13 @@ use crate::error::{Error, Result};
 use crate::freedom::Chart;
 use crate::integrator::Segment;
 use crate::math::{Pose, Vector3};
-use crate::plan::{Binding, Group, Plan, motion_of};
+use crate::plan::{Binding, Group, Plan};
 use crate::report::Report;
 use crate::scene::{BodyId, Record};
 use crate::state::{BodyMotion, BodyState, Load, Moment};
+
+#[cfg(feature = "serde")]
+mod saved;
 
 /// What kind of event it was.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +64,7 @@ pub struct Event {
 
 /// The motion of a group while its bodies keep their coordinates.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Phase {
     pub(crate) group: usize,
     pub(crate) start: f64,
@@ -101,6 +105,7 @@ pub(crate) fn decode(charts: &[Chart], y: &[f64], motions: &mut [BodyMotion]) {
 
 /// Energy of the whole scene at every sample [J]; kinetic + potential + dissipated − work stays.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy {
     /// Kinetic energy [J].
     pub kinetic: Vec<f64>,
@@ -134,7 +139,7 @@ pub struct Total {
 }
 
 /// What a run leaves behind.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     pub(crate) plan: Arc<Plan>,
     pub(crate) times: Vec<f64>,
@@ -238,7 +243,7 @@ impl Trajectory {
 
     /// Motion of every body at a sample, in the scene's order.
     pub fn motions(&self, sample: usize) -> Vec<BodyMotion> {
-        self.plan.bodies().iter().zip(self.states(sample)).map(|(body, state)| motion_of(body, state)).collect()
+        self.plan.bodies().iter().zip(self.states(sample)).map(|(body, state)| body.motion(state)).collect()
     }
 
     /// One body.
@@ -389,9 +394,21 @@ impl Trajectory {
     /// Force and torque about the centre of mass with which its freedom holds each body at a sample,
     /// in the scene's order [N], [N·m].
     pub fn reactions(&self, sample: usize) -> Vec<Load> {
+        self.reactions_of(self.times[sample], &self.motions(sample))
+    }
+
+    /// The same at any time `t` [s] of the run.
+    ///
+    /// # Errors
+    /// As [`at`](Self::at).
+    pub fn reactions_at(&self, t: f64) -> Result<Vec<Load>> {
+        let states = self.at(t)?;
+        let motions: Vec<_> = self.plan.bodies().iter().zip(&states).map(|(body, state)| body.motion(state)).collect();
+        Ok(self.reactions_of(t, &motions))
+    }
+
+    fn reactions_of(&self, time: f64, all: &[BodyMotion]) -> Vec<Load> {
         let mut reactions = vec![Load::zero(); self.plan.bodies().len()];
-        let all = self.motions(sample);
-        let time = self.times[sample];
         for (index, spec) in self.plan.groups().iter().enumerate() {
             let Some(phase) = self.phases.iter().rfind(|p| p.group == index && p.start <= time) else { continue };
             let motions: Vec<_> = spec.members.iter().map(|&i| all[i]).collect();
@@ -437,7 +454,7 @@ impl BodyTrajectory<'_> {
     /// # Errors
     /// As [`Trajectory::at`].
     pub fn at(&self, t: f64) -> Result<BodyMotion> {
-        Ok(motion_of(&self.run.plan.bodies()[self.index], &self.run.at(t)?[self.index]))
+        Ok(self.run.plan.bodies()[self.index].motion(&self.run.at(t)?[self.index]))
     }
 
     /// Its centre of mass at a time `t` [s] of the run [m].

@@ -1,1 +1,56 @@
-//! Python bindings of bryla.
+//! Python bindings of bryla: one file per core module, whose methods forward and convert.
+
+use pyo3::prelude::*;
+
+mod body;
+mod compare;
+mod convert;
+mod effect;
+mod error;
+mod freedom;
+mod mass;
+mod math;
+mod options;
+mod plan;
+mod report;
+mod run;
+mod scene;
+mod shape;
+mod simulation;
+mod trajectory;
+
+/// Runs the command line with these arguments, the first being its own name; returns the exit code.
+#[pyfunction]
+#[pyo3(signature = (args))]
+fn cli_main(py: Python<'_>, args: Vec<std::ffi::OsString>) -> i32 {
+    py.detach(|| bryla::cli::main(args))
+}
+
+/// Rigid bodies, simulated with an accuracy that you choose and that the library proves and prices.
+#[pymodule]
+fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("METHODS", pyo3::types::PyTuple::new(module.py(), options::method_names())?)?;
+    math::register(module)?;
+    module.add_class::<mass::PyMassProperties>()?;
+    shape::register(module)?;
+    effect::register(module)?;
+    freedom::register(module)?;
+    module.add_class::<body::PyBody>()?;
+    module.add_class::<body::PyBodyMotion>()?;
+    module.add_class::<scene::PyScene>()?;
+    module.add_class::<plan::PyPlan>()?;
+    module.add_class::<simulation::PySimulation>()?;
+    trajectory::register(module)?;
+    module.add_class::<report::PyReport>()?;
+    module.add_class::<report::PyCounts>()?;
+    module.add_class::<report::PySeconds>()?;
+    compare::register(module)?;
+    module.add_function(wrap_pyfunction!(cli_main, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::load, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::schema, module)?)?;
+    module.add_function(wrap_pyfunction!(simulation::resume, module)?)?;
+
+    // the package lists what is public
+    module.delattr("__all__")
+}

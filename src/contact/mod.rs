@@ -18,6 +18,9 @@ pub enum Response {
 }
 
 impl Response {
+    /// Every response.
+    pub const ALL: &'static [Self] = &[Self::Bounce, Self::Stick];
+
     /// The name that files and Python use.
     pub fn name(self) -> &'static str {
         match self {

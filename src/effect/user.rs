@@ -1,5 +1,6 @@
 //! An effect that the user writes.
 
+use std::any::Any;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -31,12 +32,20 @@ pub struct UserEffect {
     bodies: Option<Vec<String>>,
     energy: Option<Arc<EnergyFunction>>,
     failure: Arc<Mutex<Option<String>>>,
+    attached: Option<Arc<dyn Any + Send + Sync>>,
 }
 
 impl UserEffect {
     /// An effect that acts on every body alone.
     pub fn new(function: impl Fn(f64, &[BodyMotion]) -> UserLoads + Send + Sync + 'static) -> Self {
-        Self { function: Arc::new(function), couples: None, bodies: None, energy: None, failure: Arc::default() }
+        Self {
+            function: Arc::new(function),
+            couples: None,
+            bodies: None,
+            energy: None,
+            failure: Arc::default(),
+            attached: None,
+        }
     }
 
     /// On these bodies together, in this order.
@@ -61,6 +70,18 @@ impl UserEffect {
     ) -> Self {
         self.energy = Some(Arc::new(energy));
         self
+    }
+
+    /// Keeps something of the caller's with the effect, such as what the function was made from.
+    #[must_use]
+    pub fn attach(mut self, object: Arc<dyn Any + Send + Sync>) -> Self {
+        self.attached = Some(object);
+        self
+    }
+
+    /// What the caller attached.
+    pub fn attached(&self) -> Option<Arc<dyn Any + Send + Sync>> {
+        self.attached.clone()
     }
 
     /// The loads of the function; where it fails, the message is kept and the loads are not finite,

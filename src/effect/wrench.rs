@@ -16,6 +16,19 @@ pub enum Frame {
     Body,
 }
 
+impl Frame {
+    /// Every frame.
+    pub const ALL: &'static [Self] = &[Self::World, Self::Body];
+
+    /// The name that files and Python use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::World => "world",
+            Self::Body => "body",
+        }
+    }
+}
+
 /// A force and a torque, constant, scheduled or oscillating.
 ///
 /// ```text

@@ -4,7 +4,6 @@ use serde_json::{Map, Value, json};
 
 use super::{Array, arrays};
 use crate::error::Result;
-use crate::integrator::Control;
 use crate::trajectory::Trajectory;
 
 pub(super) fn write(run: &Trajectory) -> Result<String> {
@@ -34,7 +33,7 @@ pub(super) fn write(run: &Trajectory) -> Result<String> {
         "events": events,
         "report": {
             "method": report.method.name(),
-            "step": match report.control { Some(Control::Step(step)) => Some(step), _ => None },
+            "step": report.step(),
             "tolerance": report.tolerance,
             "error_estimate": report.error_estimate,
             "met": report.met,

@@ -12,6 +12,7 @@ use crate::tolerance::VELOCITY_FITS_FREEDOM;
 /// q = exp(θ u) q₀,  r = x − p,  ω = (L_u/I_u) u,  dL_u/dt = u·(M + r × F)       lecture (32)
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Axle {
     /// Direction of the axle, world axes.
     axis: Vector3,

@@ -6,6 +6,7 @@ use crate::state::{BodyMotion, BodyState, Load};
 
 /// Coordinates `[x, P, q or R, L]`.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Free {
     spin: Spin,
     inv_mass: f64,

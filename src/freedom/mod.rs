@@ -97,6 +97,7 @@ impl Freedom {
 
 /// What errors of a motion are measured by.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scales {
     /// Length that positions are measured by [m].
     pub length: f64,
@@ -107,6 +108,7 @@ pub struct Scales {
 
 /// A body's coordinates: how its state is written as the numbers that are integrated, and back.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Chart {
     /// All coordinates.
     Free(free::Free),

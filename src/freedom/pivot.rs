@@ -13,6 +13,7 @@ use crate::tolerance::VELOCITY_FITS_FREEDOM;
 /// r = −R p_body,  x = pivot + r,  v = ω × r,  L_p = I_p ω,  dL_p/dt = M + r × F
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pivot {
     spin: Spin,
     /// The point that rests, world axes [m].

@@ -1,7 +1,7 @@
 //! A body that moves in a plane: the lecture's hovercraft (§6).
 
-use super::{Scales, direction};
 use super::spin::{put, vector};
+use super::{Scales, direction};
 use crate::error::{Error, Result};
 use crate::math::{Quaternion, Vector3, quaternion};
 use crate::state::{BodyMotion, BodyState, Load};
@@ -16,6 +16,7 @@ use crate::tolerance::VELOCITY_FITS_FREEDOM;
 /// The normal stays where it is in the body, so `I_n` is a constant (32). Where it is no principal
 /// axis, or forces leave the plane, the constraint holds the body with a reaction.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Planar {
     e1: Vector3,
     e2: Vector3,

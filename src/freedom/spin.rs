@@ -6,6 +6,7 @@ use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
 
 /// How orientation and angular momentum are written as numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Form {
     /// The lecture's q and L in world axes: `dq/dt = ½ [0, ω] q`, `dL/dt = M`.
     WorldQuaternion,
@@ -20,6 +21,7 @@ pub enum Form {
 
 /// Rotation about a point: orientation, then angular momentum about that point.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Spin {
     form: Form,
     /// Inverse of the inertia about the point, body axes [1/(kg·m²)].

@@ -134,6 +134,7 @@ pub trait Problem: Debug + Send {
 
 /// What decides the length of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Control {
     /// Every step is this long [s].
     Step(f64),
@@ -143,6 +144,7 @@ pub enum Control {
 
 /// How much error a step may make.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// Largest error of a step [-].
     pub local: f64,

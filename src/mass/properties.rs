@@ -9,6 +9,7 @@ use crate::tolerance;
 ///
 /// All in the shape's own axes: moving a body in the world changes none of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MassProperties {
     /// Mass [kg].
     pub mass: f64,

@@ -6,6 +6,7 @@ use crate::math::{Quaternion, Vector3, quaternion};
 ///
 /// The orientation is a unit quaternion; [`Pose::new`] divides by its length.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Where the frame's origin stands, world axes [m].
     pub position: Vector3,

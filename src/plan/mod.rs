@@ -42,6 +42,17 @@ pub struct PlannedBody {
     pub radius: f64,
 }
 
+impl PlannedBody {
+    /// The motion that a state of this body means.
+    pub fn motion(&self, state: &BodyState) -> BodyMotion {
+        let mut motion = self.start;
+        if !self.fixed {
+            motion.set_state(state, &self.properties.inv_inertia());
+        }
+        motion
+    }
+}
+
 /// An effect and the bodies it acts on, as places in a group.
 #[derive(Debug, Clone)]
 pub(crate) struct Binding {
@@ -95,6 +106,13 @@ pub struct Plan {
     method: Method,
 }
 
+/// Two plans are equal when they were compiled from the same scene with the same options.
+impl PartialEq for Plan {
+    fn eq(&self, other: &Self) -> bool {
+        self.scene == other.scene && self.options == other.options
+    }
+}
+
 /// Something that the scene names and the plan does without.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LeftOut {
@@ -131,11 +149,7 @@ impl Plan {
         if scene.bodies.is_empty() {
             return Err(Error::refused("scene", "there is no body in it"));
         }
-        let mut scene = scene.clone();
-        for shape in scene.bodies.iter_mut().filter_map(|body| body.shape.as_mut()) {
-            *shape = shape.loaded(Path::new(""))?;
-        }
-        let scene = &scene;
+        let scene = scene.clone().loaded(Path::new(""))?;
         let bodies = scene.bodies.iter().map(planned).collect::<Result<Vec<_>>>()?;
         for (index, body) in scene.bodies.iter().enumerate() {
             if scene.bodies[..index].iter().any(|other| other.name == body.name) {
@@ -143,9 +157,9 @@ impl Plan {
             }
         }
         let mut left_out = Vec::new();
-        let groups = Grouping::new(scene, &bodies, &mut left_out)?.groups(scene, &bodies, options, &mut left_out)?;
+        let groups = Grouping::new(&scene, &bodies, &mut left_out)?.groups(&scene, &bodies, options, &mut left_out)?;
         let method = options.method.unwrap_or(Method::Dop853);
-        let plan = Self { scene: scene.clone(), options: options.clone(), bodies, groups, left_out, method };
+        let plan = Self { scene, options: options.clone(), bodies, groups, left_out, method };
 
         // every freedom is tried once, so that a start that it does not allow is found here
         for index in 0..plan.groups.len() {
@@ -488,13 +502,3 @@ fn pairs(
 
 /// Rounding of a gap, in units of the coordinates it is worked out from [-]: a dozen operations.
 pub(crate) const EPS_ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// Reads a state as a motion of a body of the plan.
-pub(crate) fn motion_of(body: &PlannedBody, state: &BodyState) -> BodyMotion {
-    let mut motion = body.start;
-    if body.fixed {
-        return motion;
-    }
-    motion.set_state(state, &body.properties.inv_inertia());
-    motion
-}

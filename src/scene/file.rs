@@ -58,17 +58,22 @@ impl Scene {
     /// # Errors
     /// A user effect, which is code and has no text.
     pub fn to_text(&self, format: Format) -> Result<String> {
-        if let Some(index) = self.effects.iter().position(|effect| matches!(effect, AnyEffect::User(_))) {
-            return Err(Error::refused(
-                self.effect_place(index),
-                "a user effect is code and cannot be written to a file",
-            ));
-        }
+        self.check_writable()?;
         match format {
             Format::Toml => toml::to_string(self).map_err(|error| Error::refused("scene", error.to_string())),
             Format::Json => {
                 serde_json::to_string_pretty(self).map_err(|error| Error::refused("scene", error.to_string()))
             }
+        }
+    }
+
+    /// Refuses a scene that has no text.
+    pub(crate) fn check_writable(&self) -> Result<()> {
+        match self.effects.iter().position(|effect| matches!(effect, AnyEffect::User(_))) {
+            Some(index) => {
+                Err(Error::refused(self.effect_place(index), "a user effect is code and cannot be written to a file"))
+            }
+            None => Ok(()),
         }
     }
 
@@ -81,15 +86,11 @@ impl Scene {
         let path = path.as_ref();
         let format = Format::of(path)?;
         let text = fs::read_to_string(path).map_err(|error| file_error(path, error))?;
-        let mut scene = Self::from_text(&text, format).map_err(|error| match error {
+        let scene = Self::from_text(&text, format).map_err(|error| match error {
             Error::File { reason, .. } => file_error(path, reason),
             other => other,
         })?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        for shape in scene.bodies.iter_mut().filter_map(|body| body.shape.as_mut()) {
-            *shape = shape.loaded(folder)?;
-        }
-        Ok(scene)
+        scene.loaded(path.parent().unwrap_or(Path::new("")))
     }
 
     /// Writes the scene to a file.

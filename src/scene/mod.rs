@@ -2,6 +2,8 @@
 //!
 //! Nothing runs unasked: there is no gravity, no drag and no floor unless one is added.
 
+use std::path::Path;
+
 use crate::effect::AnyEffect;
 use crate::error::{Error, Result};
 
@@ -83,6 +85,14 @@ impl Scene {
             };
             Error::UnknownName { place: place.to_owned(), field, name: name.to_owned(), known }
         })
+    }
+
+    /// The same scene with every mesh read from its file; relative paths start at `folder`.
+    pub(crate) fn loaded(mut self, folder: &Path) -> Result<Self> {
+        for shape in self.bodies.iter_mut().filter_map(|body| body.shape.as_mut()) {
+            *shape = shape.loaded(folder)?;
+        }
+        Ok(self)
     }
 
     /// How messages call the effect at a place of the list.

@@ -46,6 +46,9 @@ pub enum Orientation {
 }
 
 impl Orientation {
+    /// Every way.
+    pub const ALL: &'static [Self] = &[Self::Quaternion, Self::Matrix];
+
     /// The name that files and Python use.
     pub fn name(self) -> &'static str {
         match self {
@@ -70,6 +73,9 @@ pub enum Record {
 }
 
 impl Record {
+    /// Every choice.
+    pub const ALL: &'static [Self] = &[Self::Dense, Self::Samples, Self::End];
+
     /// The name that files and Python use.
     pub fn name(self) -> &'static str {
         match self {

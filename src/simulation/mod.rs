@@ -65,6 +65,13 @@ pub enum Failure {
     Interrupted,
 }
 
+impl Failure {
+    /// Whether it is the caller's own doing, which no other step would mend.
+    pub(crate) fn is_final(&self) -> bool {
+        matches!(self, Self::Interrupted | Self::Flight(FlightError::UserEffect(_)))
+    }
+}
+
 /// Bad input, or a run that cannot go on.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum RunError {
@@ -183,16 +190,24 @@ impl Simulation {
     /// # Errors
     /// A name that no body has.
     pub fn state(&self, name: &str) -> Result<BodyState> {
+        Ok(self.motion(name)?.state())
+    }
+
+    /// Motion of a body at the time to which the simulation was advanced.
+    ///
+    /// # Errors
+    /// A name that no body has.
+    pub fn motion(&self, name: &str) -> Result<BodyMotion> {
         let index = self.plan.scene().id(name)?.index();
         for lane in &self.lanes {
             let members = &self.plan.groups()[lane.group].members;
             if let Some(place) = members.iter().position(|&i| i == index && !self.plan.bodies()[i].fixed) {
                 let mut motions = lane.motions.clone();
                 lane.flight.at(self.time, &mut motions);
-                return Ok(motions[place].state());
+                return Ok(motions[place]);
             }
         }
-        Ok(self.plan.bodies()[index].start.state())
+        Ok(self.plan.bodies()[index].start)
     }
 
     /// What has been done so far.

@@ -38,7 +38,12 @@ impl Scene {
     ///
     /// # Errors
     /// As [`run`](Self::run); a run that was stopped ends in [`Failure::Interrupted`].
-    pub fn run_observed(&self, span: impl Into<Span>, options: &RunOptions, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    pub fn run_observed(
+        &self,
+        span: impl Into<Span>,
+        options: &RunOptions,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let began = thread_seconds();
         let plan = self.compile(options)?;
         let compile = thread_seconds() - began;
@@ -76,7 +81,13 @@ impl Plan {
     }
 
     /// One run with the step asked for, and one with twice the step to estimate its error.
-    fn run_with_step(&self, span: Span, times: &[f64], step: f64, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    fn run_with_step(
+        &self,
+        span: Span,
+        times: &[f64],
+        step: f64,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let plan = Arc::new(self.clone());
         let began = thread_seconds();
         let mut run = pass(&plan, span, times, Control::Step(step), 1, observer).map_err(Box::new)?;
@@ -95,17 +106,23 @@ impl Plan {
                 let gain = libm::pow(2.0, f64::from(self.method().order()));
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
                 run.report.error_estimate = Some(comparison.worst);
-                run.report.estimated_by = "against a second run with twice the step";
+                run.report.estimated_by = "against a second run with twice the step".into();
             }
-            Err(error) if error.kind == Failure::Interrupted => return Err(Box::new(error).into()),
-            Err(_) => run.report.estimated_by = "not estimated: a second run with twice the step broke off",
+            Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
+            Err(_) => run.report.estimated_by = "not estimated: a second run with twice the step broke off".into(),
         }
         Ok(run)
     }
 
     /// Makes passes with ever smaller steps, or smaller errors of a step, until two of them agree to the
     /// tolerance.
-    fn run_to_tolerance(&self, span: Span, times: &[f64], tolerance: f64, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    fn run_to_tolerance(
+        &self,
+        span: Span,
+        times: &[f64],
+        tolerance: f64,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let floor = FLOOR * self.rounding(span);
         if tolerance < floor {
             let allowed = format!("at least {floor:.1e}, what rounding leaves of this scene");
@@ -125,7 +142,7 @@ impl Plan {
             let mut failure = None;
             let mut run = match pass(&plan, span, times, knob.control(setting, scales), number, observer) {
                 Ok(run) => run,
-                Err(error) if error.kind == Failure::Interrupted => return Err(Box::new(error).into()),
+                Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
                 Err(mut error) => {
                     // what a coarse step broke, a finer one may mend: the run so far is compared too
                     let Some(run) = error.trajectory.take() else { return Err(Box::new(error).into()) };
@@ -150,7 +167,7 @@ impl Plan {
                 );
                 estimate = comparison.worst;
                 run.report.error_estimate = Some(comparison.within_horizon);
-                run.report.estimated_by = knob.estimated_by();
+                run.report.estimated_by = knob.estimated_by().into();
                 run.report.met = Some(comparison.worst <= tolerance);
                 run.report.horizon = comparison.horizon;
             }
@@ -180,7 +197,8 @@ impl Plan {
     /// A guess of the length that position errors are measured by [m], before the paths are known.
     fn first_length_scale(&self, span: Span) -> f64 {
         let time = span.end - span.start;
-        let reach = self.bodies().iter().map(|body| body.radius.max(body.start.velocity.norm() * time)).fold(0.0, f64::max);
+        let reach =
+            self.bodies().iter().map(|body| body.radius.max(body.start.velocity.norm() * time)).fold(0.0, f64::max);
         self.options().length_scale.unwrap_or(if reach > 0.0 { reach } else { 1.0 })
     }
 }
@@ -234,7 +252,8 @@ impl Knob {
 
     /// The setting that should meet the tolerance, where this one left an estimate.
     fn next(&self, setting: f64, tolerance: f64, estimate: f64) -> f64 {
-        let (power, range) = if self.controls_error { (1.0, (1e-4, 1.0 / self.ratio)) } else { (1.0 / self.order, (1.0 / 32.0, 0.5)) };
+        let (power, range) =
+            if self.controls_error { (1.0, (1e-4, 1.0 / self.ratio)) } else { (1.0 / self.order, (1.0 / 32.0, 0.5)) };
         let shrink = if estimate.is_finite() { libm::pow(SAFETY * tolerance / estimate, power) } else { range.1 };
         (setting * shrink.clamp(range.0, range.1)).max(self.least)
     }
