@@ -14,6 +14,7 @@
 //! Free rotation of any body is [`FreeRotation`](crate::integrator::free_rotation::FreeRotation).
 //! Inputs are finite and inertial quantities positive; each item says what else it asks for.
 
+use crate::math::decay::decay_functions;
 use crate::math::elliptic::{complete_k, incomplete_f, jacobi};
 use crate::math::{Quaternion, Vector3, quaternion};
 
@@ -68,20 +69,6 @@ pub fn linear_drag(
     let (phi1, phi2) = decay_functions(k * t);
     let start = g - k * (velocity - wind);
     (position + t * (velocity + t * phi2 * start), velocity + t * phi1 * start)
-}
-
-/// `φ₁(z) = (1 − e^(−z))/z` and `φ₂(z) = (1 − φ₁)/z = (z − 1 + e^(−z))/z²`.
-fn decay_functions(z: f64) -> (f64, f64) {
-    if z.abs() < 0.5 {
-        // φ₂ = Σ (−z)ⁿ/(n + 2)!, to rounding after 15 terms; φ₁ = 1 − z φ₂
-        let mut phi2 = 0.0;
-        for n in (0..15).rev() {
-            phi2 = (1.0 - z * phi2) / f64::from(n + 2);
-        }
-        return (1.0 - z * phi2, phi2);
-    }
-    let phi1 = -libm::expm1(-z) / z;
-    (phi1, (1.0 - phi1) / z)
 }
 
 /// Distance fallen [m] and downward speed [m/s] after `t ≥ 0` [s], from the downward speed `v0` [m/s] (negative:

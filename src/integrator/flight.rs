@@ -125,7 +125,7 @@ impl<P: Problem> Flight for Integration<P> {
         *start = front.time;
         self.stale = true;
         let taken = integrator.advance(problem, front, limit, counts);
-        if taken.is_ok() && front.y.as_ref().iter().sum::<f64>().is_finite() {
+        if taken.is_ok() && front.y.is_finite() {
             return Ok(());
         }
         match problem.take_failure() {
