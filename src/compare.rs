@@ -9,7 +9,6 @@ use std::ops::ControlFlow;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
-use crate::reference;
 use crate::scene::{Record, RunOptions, Scene, Span};
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
@@ -21,7 +20,7 @@ use crate::trajectory::Trajectory;
 /// What is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompareOptions {
-    /// Methods of integration; all of them if empty.
+    /// Methods of integration; all that the scene allows if empty.
     pub methods: Vec<Method>,
     /// Lengths of a step [s]; halvings from a first guess if empty.
     pub steps: Vec<f64>,
@@ -43,7 +42,7 @@ impl Default for CompareOptions {
 pub struct Row {
     /// Method of integration.
     pub method: Method,
-    /// Length of a step [s].
+    /// Length of a step [s]; of the closed form, the whole span.
     pub step: f64,
     /// Error of the end state [-]: the larger of position error over the length scale and orientation
     /// error in radians, over all bodies. None where the run broke off.
@@ -98,8 +97,13 @@ impl Scene {
 
         let mut rows = Vec::new();
         for &method in methods {
-            for &step in &steps {
-                let plan = self.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
+            // the closed form takes no steps, and not every scene has one
+            let steps = if method == Method::Exact { vec![None] } else { steps.iter().copied().map(Some).collect() };
+            for step in steps {
+                let plan = match self.compile(&RunOptions { method: Some(method), step, ..base.clone() }) {
+                    Err(_) if options.methods.is_empty() => break,
+                    plan => plan?,
+                };
                 rows.push(row(&plan, span, &reference, options.repeats.max(1), observer)?);
             }
         }
@@ -132,6 +136,7 @@ struct Reference {
 }
 
 impl Reference {
+    /// The closed form, where the scene has one; else the finest affordable run.
     fn new(
         scene: &Scene,
         span: Span,
@@ -139,16 +144,19 @@ impl Reference {
         base: &RunOptions,
         observer: Observer<'_>,
     ) -> Result<Self, RunError> {
-        let best = Self::finest(scene, span, steps, base, observer)?;
-        let plan = scene.compile(base)?;
-        Ok(match reference::closed_form(&plan, span.end - span.start) {
-            Some(states) => Self { name: "the closed form".to_owned(), error: 0.0, states, ..best },
-            None => best,
-        })
+        match scene.compile(&RunOptions { method: Some(Method::Exact), ..base.clone() }) {
+            Ok(plan) => Ok(Self::read(&plan.run_observed(span, observer)?, "the closed form".to_owned(), 0.0)),
+            Err(_) => Self::finest(scene, span, steps, base, observer),
+        }
     }
 
-    /// The finest affordable run of the method of highest order; its error by Richardson's rule from
-    /// the run before.
+    fn read(run: &Trajectory, name: String, error: f64) -> Self {
+        let states = run.states(run.times().len() - 1).to_vec();
+        Self { name, error, states, length_scale: run.report().length_scale }
+    }
+
+    /// A run of order 8 with the step that leaves the smallest error; its error by Richardson's rule
+    /// from the run before.
     fn finest(
         scene: &Scene,
         span: Span,
@@ -156,15 +164,13 @@ impl Reference {
         base: &RunOptions,
         observer: Observer<'_>,
     ) -> Result<Self, RunError> {
-        let method = Method::ALL.iter().copied().max_by_key(|method| method.order()).unwrap_or(Method::Rk4);
+        let method = Method::Dop853;
         let mut step = REFERENCE_STEP * steps.iter().copied().fold(f64::INFINITY, f64::min);
         let divisor = libm::pow(2.0, f64::from(method.order())) - 1.0;
         let mut fine = |step: f64| -> Result<Self, RunError> {
             let plan = scene.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
-            let run = plan.run_observed(span, observer)?;
             let name = format!("{method} with h = {} s", short(step));
-            let states = run.states(run.times().len() - 1).to_vec();
-            Ok(Self { name, error: f64::INFINITY, states, length_scale: run.report().length_scale })
+            Ok(Self::read(&plan.run_observed(span, observer)?, name, f64::INFINITY))
         };
         let mut best = fine(2.0 * step)?;
         for _ in 0..REFERENCE_HALVINGS {
@@ -211,7 +217,7 @@ fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32, observer: O
     };
     Ok(Row {
         method: plan.method(),
-        step: plan.options().step.unwrap_or_default(),
+        step: plan.options().step.unwrap_or(span.end - span.start),
         error: error.filter(|e| e.is_finite()),
         evaluations: counts.evaluations,
         steps: counts.steps,

@@ -2,7 +2,6 @@
 //!
 //! | function | motion | solved by |
 //! |---|---|---|
-//! | [`closed_form`] | a whole scene of free bodies under gravity and linear drag | the rows below |
 //! | [`symmetric_body`] | free rotation, two equal moments | two uniform rotations |
 //! | [`free_fall`] | uniform acceleration | a parabola |
 //! | [`linear_drag`] | drag proportional to speed, wind, gravity | exponentials |
@@ -12,59 +11,12 @@
 //! | [`Pendulum`] | a body on a horizontal axle | Jacobi's functions |
 //! | [`SteadyPrecession`] | the regular precession of a symmetric heavy top | two uniform rotations |
 //!
-//! Free rotation of any body is [`FreeRotation`](FreeRotation).
+//! Free rotation of any body is [`FreeRotation`](crate::integrator::free_rotation::FreeRotation).
 //! Inputs are finite and inertial quantities positive; each item says what else it asks for.
 
-use crate::effect::{AnyEffect, Drag};
-use crate::freedom::Freedom;
-use crate::integrator::free_rotation::FreeRotation;
-use crate::mass::PrincipalAxes;
+use crate::math::decay::decay_functions;
 use crate::math::elliptic::{complete_k, incomplete_f, jacobi};
 use crate::math::{Quaternion, Vector3, quaternion};
-use crate::plan::Plan;
-use crate::state::BodyState;
-
-/// States of all bodies of a plan after `t` [s], where the scene has a closed form: every moving body is
-/// free, flies alone, meets nothing, and nothing acts on it but uniform gravity and linear drag on its
-/// translation.
-pub fn closed_form(plan: &Plan, t: f64) -> Option<Vec<BodyState>> {
-    let mut states: Vec<_> = plan.bodies().iter().map(|body| body.start.state()).collect();
-    for group in plan.groups() {
-        let &[index] = group.members.as_slice() else { return None };
-        let body = &plan.bodies()[index];
-        if body.freedom != Freedom::Free || !group.pairs.is_empty() {
-            return None;
-        }
-
-        // translation: gravity adds up, and one drag may slow it
-        let (mut g, mut rate, mut wind) = (Vector3::zeros(), 0.0, Vector3::zeros());
-        for binding in &group.bindings {
-            match &*binding.effect {
-                AnyEffect::UniformGravity(gravity) => g += Vector3::from(gravity.acceleration),
-                AnyEffect::Drag(Drag { linear, quadratic, angular_linear, angular_quadratic, wind: w, .. })
-                    if rate == 0.0 && [*quadratic, *angular_linear, *angular_quadratic] == [0.0; 3] =>
-                {
-                    rate = linear / body.properties.mass;
-                    wind = Vector3::from(*w);
-                }
-                _ => return None,
-            }
-        }
-        let (x, v) = linear_drag(&body.start.position, &body.start.velocity, &g, &wind, rate, t);
-
-        // rotation: free
-        let PrincipalAxes { moments, axes } = body.properties.principal();
-        let l_body = body.start.inertia_body * body.start.angular_velocity_body();
-        let (q, _) = FreeRotation::new(moments, axes, body.start.orientation, l_body).at(t);
-        states[index] = BodyState {
-            position: x,
-            orientation: q,
-            linear_momentum: body.properties.mass * v,
-            angular_momentum: body.start.angular_momentum(),
-        };
-    }
-    Some(states)
-}
 
 /// Orientation (body to world) at time `t` [s] of a free body with the moments `(I₁, I₁, I₃)` [kg m²].
 ///
@@ -117,20 +69,6 @@ pub fn linear_drag(
     let (phi1, phi2) = decay_functions(k * t);
     let start = g - k * (velocity - wind);
     (position + t * (velocity + t * phi2 * start), velocity + t * phi1 * start)
-}
-
-/// `φ₁(z) = (1 − e^(−z))/z` and `φ₂(z) = (1 − φ₁)/z = (z − 1 + e^(−z))/z²`.
-fn decay_functions(z: f64) -> (f64, f64) {
-    if z.abs() < 0.5 {
-        // φ₂ = Σ (−z)ⁿ/(n + 2)!, to rounding after 15 terms; φ₁ = 1 − z φ₂
-        let mut phi2 = 0.0;
-        for n in (0..15).rev() {
-            phi2 = (1.0 - z * phi2) / f64::from(n + 2);
-        }
-        return (1.0 - z * phi2, phi2);
-    }
-    let phi1 = -libm::expm1(-z) / z;
-    (phi1, (1.0 - phi1) / z)
 }
 
 /// Distance fallen [m] and downward speed [m/s] after `t ≥ 0` [s], from the downward speed `v0` [m/s] (negative:

@@ -66,6 +66,11 @@ pub trait Effect: Debug + Send + Sync {
         false
     }
 
+    /// Whether the load depends on velocities; if not, a splitting's kick takes it as a whole.
+    fn depends_on_velocity(&self) -> bool {
+        true
+    }
+
     /// Times at which the load jumps [s]; no step straddles one.
     fn switches(&self) -> Vec<f64> {
         Vec::new()

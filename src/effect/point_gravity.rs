@@ -77,6 +77,10 @@ impl Effect for PointGravity {
         true
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         for (body, load) in bodies.iter().zip(loads) {
             let r = body.position - Vector3::from(self.center);

@@ -120,6 +120,10 @@ impl Effect for Spring {
         self.damping == 0.0
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        self.damping != 0.0
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         let (pa, pb, d, u) = self.ends(bodies);
         let length = d.norm();

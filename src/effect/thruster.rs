@@ -69,6 +69,10 @@ impl Effect for Thruster {
         Schedule::times(self.schedule.as_ref())
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         for (body, load) in bodies.iter().zip(loads) {
             self.add_to_one(at, body, load);

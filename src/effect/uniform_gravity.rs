@@ -54,6 +54,10 @@ impl Effect for UniformGravity {
         true
     }
 
+    fn depends_on_velocity(&self) -> bool {
+        false
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         let g = Vector3::from(self.acceleration);
         for (body, load) in bodies.iter().zip(loads) {

@@ -80,8 +80,12 @@ impl Axle {
     }
 
     #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn correction(&self, _y: &[f64], dy: &mut [f64]) -> f64 {
-        dy[..2].fill(0.0);
+    pub(super) fn project(&self, _y: &mut [f64], _rest: &mut [f64]) -> f64 {
+        0.0
+    }
+
+    #[expect(clippy::unused_self, reason = "every chart answers this")]
+    pub(super) fn orientation_error(&self, _y: &[f64]) -> f64 {
         0.0
     }
 

@@ -1,7 +1,7 @@
 //! A free body: Y = (x, P, q, L), lecture (24).
 
 use super::Scales;
-use super::spin::{Form, Spin, put, vector};
+use super::spin::{Form, RotationSplit, Spin, put, vector};
 use crate::state::{BodyMotion, BodyState, Load};
 
 /// Coordinates `[x, P, q or R, L]`.
@@ -15,6 +15,19 @@ pub struct Free {
 impl Free {
     pub(super) fn new(form: Form, motion: &BodyMotion) -> Self {
         Self { spin: Spin::new(form, motion.inertia_body), inv_mass: 1.0 / motion.mass }
+    }
+
+    /// Its rotation.
+    pub(super) fn spin(&self) -> &Spin {
+        &self.spin
+    }
+
+    #[inline]
+    pub(super) fn flow(&self, y: &mut [f64], h: f64, split: RotationSplit) {
+        for i in 0..3 {
+            y[i] += h * self.inv_mass * y[3 + i];
+        }
+        self.spin.flow(&mut y[6..], h, split);
     }
 
     pub(super) fn dimension(&self) -> usize {
@@ -49,9 +62,12 @@ impl Free {
     }
 
     #[inline]
-    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
-        dy[..6].fill(0.0);
-        self.spin.correction(&y[6..], &mut dy[6..])
+    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
+        self.spin.project(&mut y[6..], &mut rest[6..])
+    }
+
+    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
+        self.spin.orientation_error(&y[6..])
     }
 
     #[inline]

@@ -20,7 +20,8 @@ mod pivot;
 mod planar;
 mod spin;
 
-pub use spin::Form;
+pub(crate) use spin::Spin;
+pub use spin::{Form, RotationSplit};
 
 /// How a body may move.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -178,11 +179,44 @@ impl Chart {
         dispatch!(self, c => c.rate_unloaded(y, dy), ());
     }
 
-    /// What puts the orientation back on its sphere (or R on the rotations), lecture §4, to be added
-    /// to `y`; returns how far it has strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
+    /// Advances the motion without loads by `h` [s]: exactly, or with the rotation split.
     #[inline]
-    pub fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
-        dispatch!(self, c => c.correction(y, dy), 0.0)
+    pub fn flow(&self, y: &mut [f64], h: f64, split: RotationSplit) {
+        match self {
+            Self::Free(c) => c.flow(y, h, split),
+            Self::Pivot(c) => c.spin().flow(y, h, split),
+            Self::Planar(_) | Self::Axle(_) => {
+                // straight lines: the rates without loads stay
+                let mut dy = [0.0; 6];
+                let n = self.dimension();
+                self.rate_unloaded(y, &mut dy[..n]);
+                for (y, dy) in y.iter_mut().zip(&dy) {
+                    *y += h * dy;
+                }
+            }
+            Self::Fixed => {}
+        }
+    }
+
+    /// Where a chart that begins at `at` keeps orientation and angular momentum, if it does.
+    pub(crate) fn spin_part(&self, at: usize) -> Option<(std::ops::Range<usize>, &Spin)> {
+        match self {
+            Self::Free(c) => Some((at + 6..at + self.dimension(), c.spin())),
+            Self::Pivot(c) => Some((at..at + self.dimension(), c.spin())),
+            Self::Planar(_) | Self::Axle(_) | Self::Fixed => None,
+        }
+    }
+
+    /// Puts the orientation back on its sphere (or R on the rotations), lecture §4, with the rest that
+    /// rounding left of it, and returns how far it had strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
+    #[inline]
+    pub fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
+        dispatch!(self, c => c.project(y, rest), 0.0)
+    }
+
+    /// How far the orientation is off its sphere, as it stands [-].
+    pub fn orientation_error(&self, y: &[f64]) -> f64 {
+        dispatch!(self, c => c.orientation_error(y), 0.0)
     }
 
     /// Size of an error `e` of a step from `y0` to `y1` [-]: of the position over a length, of

@@ -3,7 +3,7 @@
 use super::Scales;
 use super::spin::{Form, Spin};
 use crate::error::{Error, Result};
-use crate::math::Vector3;
+use crate::math::{Matrix3, Vector3};
 use crate::state::{BodyMotion, BodyState, Load};
 use crate::tolerance::VELOCITY_FITS_FREEDOM;
 
@@ -38,6 +38,16 @@ impl Pivot {
         Ok(Self { spin: Spin::new(form, inertia), pivot, arm_body })
     }
 
+    /// Inertia about the pivot, body axes [kg·m²].
+    pub(crate) fn inertia(&self, motion: &BodyMotion) -> Matrix3 {
+        super::about_point(motion, &self.arm_body)
+    }
+
+    /// Its rotation.
+    pub(super) fn spin(&self) -> &Spin {
+        &self.spin
+    }
+
     pub(super) fn dimension(&self) -> usize {
         self.spin.dimension()
     }
@@ -68,8 +78,12 @@ impl Pivot {
     }
 
     #[inline]
-    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
-        self.spin.correction(y, dy)
+    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
+        self.spin.project(y, rest)
+    }
+
+    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
+        self.spin.orientation_error(y)
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use super::Scales;
 use crate::mass::MassProperties;
+use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
 
 /// How orientation and angular momentum are written as numbers.
@@ -19,10 +20,19 @@ pub enum Form {
     Body,
 }
 
+/// How the rotation of a body without torque is split into flows that are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RotationSplit {
+    /// A symmetric top, and a rotation about the axis that makes it one.
+    Symmetric,
+    /// Rotations about the three principal axes.
+    Axes,
+}
+
 /// Rotation about a point: orientation, then angular momentum about that point.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(super) struct Spin {
+pub(crate) struct Spin {
     form: Form,
     /// Inverse of the inertia about the point, body axes [1/(kg·m²)].
     inv_inertia: Matrix3,
@@ -187,24 +197,107 @@ impl Spin {
         put(&mut dy[4..], &(momentum.cross(&w) + torque));
     }
 
-    /// What leads the orientation back to its sphere; returns how far it has strayed.
+    /// Advances the rotation without torque by `h`, principal axes.
+    #[inline]
+    pub(super) fn flow(&self, y: &mut [f64], h: f64, split: RotationSplit) {
+        let mut turn = Turn { q: quaternion_at(y), momentum: vector(&y[4..]) };
+        let a = &self.inv_moments;
+        match split {
+            RotationSplit::Axes => {
+                turn.about_axis(0, 0.5 * h * a[0]);
+                turn.about_axis(1, 0.5 * h * a[1]);
+                turn.about_axis(2, h * a[2]);
+                turn.about_axis(1, 0.5 * h * a[1]);
+                turn.about_axis(0, 0.5 * h * a[0]);
+            }
+            RotationSplit::Symmetric => {
+                // i and j are the axes with the closest moments, k is the axis of the top
+                let gap = |i: usize, j: usize| (a[i] - a[j]).abs();
+                let (i, j, k) = if gap(0, 1) <= gap(1, 2) { (0, 1, 2) } else { (1, 2, 0) };
+                let (i, j, k) = if gap(0, 2) < gap(i, j) { (0, 2, 1) } else { (i, j, k) };
+                turn.about_axis(i, 0.5 * h * (a[i] - a[j]));
+                turn.about_momentum(h * a[j]);
+                turn.about_axis(k, h * (a[k] - a[j]));
+                turn.about_axis(i, 0.5 * h * (a[i] - a[j]));
+            }
+        }
+        put_quaternion(y, &turn.q);
+        put(&mut y[4..], &turn.momentum);
+    }
+
+    /// Turns the rate of the orientation into the angular velocity, in the first three numbers.
+    pub(crate) fn to_generator(&self, y: &[f64], k: &mut [f64]) {
+        let w = match self.form {
+            // dR/dt Rᵀ is Ω, up to its symmetric part where R is off the rotations
+            Form::WorldMatrix => {
+                let s = matrix_at(k) * rotation::polar_factor(&matrix_at(y)).transpose();
+                0.5 * Vector3::new(s[(2, 1)] - s[(1, 2)], s[(0, 2)] - s[(2, 0)], s[(1, 0)] - s[(0, 1)])
+            }
+            form => {
+                let (q, dq) = (quaternion_at(y), quaternion_at(k));
+                let product = if form == Form::Body { q.conjugate() * dq } else { dq * q.conjugate() };
+                2.0 / q.norm_squared() * product.imag()
+            }
+        };
+        put(k, &w);
+        k[3..self.orientation_dimension()].fill(0.0);
+    }
+
+    /// `exp(h v)` on orientation and angular momentum.
+    pub(crate) fn act(&self, y: &mut [f64], h: f64, v: &[f64]) {
+        let n = self.orientation_dimension();
+        let turn = quaternion::exp(&(h * vector(v)));
+        match self.form {
+            Form::WorldMatrix => put_matrix(y, &(quaternion::to_matrix(&turn) * matrix_at(y))),
+            Form::WorldQuaternion => put_quaternion(y, &(turn * quaternion_at(y))),
+            Form::Body => put_quaternion(y, &(quaternion_at(y) * turn)),
+        }
+        for i in n..n + 3 {
+            y[i] += h * v[i];
+        }
+    }
+
+    /// `a += c (a × b)` on the angular velocities of two generators.
+    #[expect(clippy::unused_self, reason = "the place of the angular velocity is the form's")]
+    pub(crate) fn add_bracket(&self, c: f64, a: &mut [f64], b: &[f64]) {
+        let sum = vector(a) + c * vector(a).cross(&vector(b));
+        put(a, &sum);
+    }
+
+    /// One division by the length, or one polar factor; returns how far it had strayed.
     ///
     /// ```text
-    /// Δq = q (1 − |q|)/|q|        ΔR = polar factor of R − R
+    /// q ← q + c q,   c = 1/|q| − 1 = −e/2 + 3e²/8 − 5e³/16 + 35e⁴/128 − …,   e = |q|² − 1
     /// ```
+    ///
+    /// Adding the small correction keeps the digits that the rest holds; a division would round them off.
     #[inline]
-    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
         if self.form == Form::WorldMatrix {
             let r = matrix_at(y);
-            put_matrix(dy, &(rotation::polar_factor(&r) - r));
-            dy[9..12].fill(0.0);
-            rotation::orthogonality_error(&r)
+            put_matrix(y, &rotation::polar_factor(&r));
+            rest[..9].fill(0.0);
+            return rotation::orthogonality_error(&r);
+        }
+        let q = quaternion_at(y);
+        let e = q.norm_squared() - 1.0;
+        let (c, strayed) = if e.abs() < SMALL_STRAY {
+            let c = e * (-0.5 + e * (0.375 + e * (-0.3125 + e * 0.2734375)));
+            (c, e.abs() * (0.5 - 0.125 * e))
         } else {
-            let q = quaternion_at(y);
-            let length = q.norm_squared().sqrt();
-            put_quaternion(dy, &(q * ((1.0 - length) / length)));
-            dy[4..7].fill(0.0);
-            (length - 1.0).abs()
+            let length = (1.0 + e).sqrt();
+            ((1.0 - length) / length, (length - 1.0).abs())
+        };
+        for (y, rest) in y[..4].iter_mut().zip(&mut rest[..4]) {
+            (*y, *rest) = two_sum(*y, c * *y + *rest);
+        }
+        strayed
+    }
+
+    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
+        match self.form {
+            Form::WorldMatrix => rotation::orthogonality_error(&matrix_at(y)),
+            _ => (quaternion_at(y).norm_squared().sqrt() - 1.0).abs(),
         }
     }
 
@@ -219,5 +312,43 @@ impl Spin {
         let least = 1.0 / (self.inv_moments.amax() * scales.time);
         let momentum = length(&y0[n..n + 3]).max(length(&y1[n..n + 3])).max(least);
         angle.max(length(&e[n..n + 3]) / momentum)
+    }
+}
+
+/// Stray of `|q|²` below which four terms of the series are exact to rounding [-]: e⁵/4 < 1e-18.
+const SMALL_STRAY: f64 = 3.0e-4;
+
+/// A body that is turned by known rotations: its orientation, and L in its own axes.
+struct Turn {
+    q: Quaternion,
+    momentum: Vector3,
+}
+
+impl Turn {
+    /// The flow of `½ r L_i²` for a unit of time: a rotation about the axis i by the angle `r L_i`.
+    #[inline]
+    fn about_axis(&mut self, i: usize, r: f64) {
+        let (s, c) = libm::sincos(0.5 * r * self.momentum[i]);
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+
+        // q [c, s eᵢ]
+        let (w, v) = (self.q.w, self.q.imag());
+        let mut turned = c * v;
+        turned[i] += s * w;
+        turned[j] += s * v[k];
+        turned[k] -= s * v[j];
+        self.q = Quaternion::from_parts(c * w - s * v[i], turned);
+
+        // L seen from the body turns the other way, by the whole angle
+        let (sin, cos) = (2.0 * s * c, (c - s) * (c + s));
+        let (lj, lk) = (self.momentum[j], self.momentum[k]);
+        self.momentum[j] = cos * lj + sin * lk;
+        self.momentum[k] = cos * lk - sin * lj;
+    }
+
+    /// The flow of `½ a |L|²` for a unit of time: a rotation about L, which stays.
+    #[inline]
+    fn about_momentum(&mut self, a: f64) {
+        self.q *= quaternion::exp(&(a * self.momentum));
     }
 }

@@ -131,7 +131,7 @@ impl<P: Problem> Flight for Integration<P> {
         *start = front.time;
         self.stale = true;
         let taken = integrator.advance(problem, front, limit, counts);
-        if taken.is_ok() && front.y.as_ref().iter().sum::<f64>().is_finite() {
+        if taken.is_ok() && front.y.is_finite() {
             return Ok(());
         }
         match problem.take_failure() {
@@ -147,9 +147,7 @@ impl<P: Problem> Flight for Integration<P> {
         let Self { problem, integrator, front, segment, counts, .. } = self;
         integrator.interpolate(problem, front, segment, counts);
 
-        // without branches, so that it costs a few nanoseconds
-        let finite = segment.coefficients.iter().fold(true, |finite, c| finite & c.is_finite());
-        if finite { Ok(()) } else { Err(FlightError::NotFinite) }
+        if segment.is_finite() { Ok(()) } else { Err(FlightError::NotFinite) }
     }
 
     fn segment(&self) -> &Segment {

@@ -12,23 +12,33 @@
 use std::fmt::Debug;
 
 use crate::error::{Error, Result};
-use crate::freedom::{Form, Scales};
+use crate::freedom::{Form, RotationSplit, Scales};
 use crate::math::sum::{Time, two_sum};
 use crate::state::{BodyMotion, Moment};
 
+mod axes2;
+mod buss2;
+mod cf4;
 mod dop853;
 mod euler;
+pub(crate) mod exact;
 mod flight;
 pub mod free_rotation;
 mod heun;
 mod rk4;
 mod segment;
 mod semi_implicit_euler;
+mod split2;
+mod split4;
+mod split6;
+mod split8;
+mod splitting;
 mod stepper;
 mod tsit5;
 
+pub use exact::{ClosedFlight, ClosedMotion};
 pub use flight::{Counts, Flight, FlightError, Integration};
-pub use segment::Segment;
+pub use segment::{Curve, Segment};
 
 /// The numbers that are integrated. A fixed length lets the compiler unroll the step of a single
 /// body; groups of bodies use a `Vec`.
@@ -78,6 +88,12 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
         }
     }
 
+    /// Whether every number is finite.
+    #[inline]
+    fn is_finite(&self) -> bool {
+        self.as_ref().iter().fold(true, |all, x| all & x.is_finite())
+    }
+
     /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
     #[inline]
     fn add_compensated(&mut self, dy: &Self, rest: &mut Self) {
@@ -117,9 +133,32 @@ pub trait Problem: Debug + Send {
     /// The part of f that is left when all loads are 0; `f − drift` is the kick of a splitting.
     fn drift(&mut self, y: &Self::Y, dy: &mut Self::Y);
 
-    /// What puts orientations back on their sphere (lecture §4), to be added to `y`; returns how far
-    /// the worst has strayed [-].
-    fn correction(&self, y: &Self::Y, dy: &mut Self::Y) -> f64;
+    /// Whether anything acts on the bodies; else [`rate`](Self::rate) is [`drift`](Self::drift).
+    fn is_loaded(&self) -> bool;
+
+    /// Whether a load depends on velocities.
+    fn depends_on_velocity(&self) -> bool;
+
+    /// Advances the motion without loads by `h`, exactly or by a symmetric second-order split of the
+    /// rotation; |L| is kept to rounding.
+    fn flow(&mut self, y: &mut Self::Y, h: f64, split: RotationSplit);
+
+    /// Turns the rates of orientations in `k = f(t, y)` into angular velocities, in the axes of the
+    /// form, the first three numbers of an orientation's place; the other numbers stay.
+    fn to_generator(&self, y: &Self::Y, k: &mut Self::Y);
+
+    /// `exp(h v)` on `y`: orientations turn by the angular velocities in `v`, other numbers move by `h v`.
+    fn act(&self, y: &mut Self::Y, h: f64, v: &Self::Y);
+
+    /// `a += c (a × b)` on the angular velocities in two generators.
+    fn add_bracket(&self, c: f64, a: &mut Self::Y, b: &Self::Y);
+
+    /// Puts orientations back on their sphere (lecture §4), with the rest that rounding left of `y`;
+    /// returns how far the worst had strayed [-].
+    fn project(&mut self, y: &mut Self::Y, rest: &mut Self::Y) -> f64;
+
+    /// How far the worst orientation is off its sphere, as it stands [-].
+    fn orientation_error(&self, y: &Self::Y) -> f64;
 
     /// Size of an error `e` of a step from `y0` to `y1` [-]: positions over a length, orientations in
     /// radians, momenta over their own size; the largest of all bodies.
@@ -205,23 +244,28 @@ macro_rules! methods {
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         pub enum Method {
             $($(#[$doc])* $variant,)*
+            /// The closed form, where there is one: no torque and no force but gravity and linear drag.
+            Exact,
         }
 
         impl Method {
             /// Every method, in the order of the list.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Exact];
 
             /// The name that files, reports and Python use.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => stringify!($module),)*
+                    Self::Exact => "exact",
                 }
             }
 
-            /// Order of accuracy: halving the step divides the error by two to this power.
+            /// Order of accuracy: halving the step divides the error by two to this power; 0 for the
+            /// closed form, which has no step.
             pub fn order(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::ORDER,)*
+                    Self::Exact => exact::ORDER,
                 }
             }
 
@@ -229,28 +273,45 @@ macro_rules! methods {
             pub fn evaluations(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
+                    Self::Exact => 0,
                 }
+            }
+
+            /// Whether it keeps its order only under loads that do not depend on velocities.
+            pub fn needs_positional_loads(self) -> bool {
+                matches!(self, Self::Split6 | Self::Split8)
             }
 
             /// Whether it integrates the angular momentum in body axes; else in the lecture's world axes.
             pub fn in_body_axes(self) -> bool {
                 match self {
                     $(Self::$variant => $module::BODY_AXES,)*
+                    Self::Exact => false,
                 }
             }
 
-            /// Whether it estimates the error of a step, so that [`Control::Error`] can choose the length.
+            /// Whether it estimates the error of a step, so that [`Control::Error`] can choose the length,
+            /// or makes none.
             pub fn controls_error(self) -> bool {
                 match self {
                     $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
+                    Self::Exact => true,
                 }
             }
 
-            /// The method on a problem.
-            pub fn integrator<P: Problem + 'static>(self, problem: &P, control: Control, projection: bool) -> Box<dyn Integrator<P>> {
+            /// The method on a problem; none for the closed form.
+            pub fn integrator<P: Problem + 'static>(
+                self,
+                problem: &P,
+                control: Control,
+                projection: bool,
+            ) -> Option<Box<dyn Integrator<P>>> {
                 let n = problem.dimension();
                 match self {
-                    $(Self::$variant => Box::new(stepper::Stepper::<P, $module::Kernel<P::Y>>::new(n, control, projection)),)*
+                    $(Self::$variant => {
+                        Some(Box::new(stepper::Stepper::<P, $module::Kernel<P::Y>>::new(n, control, projection)))
+                    })*
+                    Self::Exact => None,
                 }
             }
         }
@@ -270,12 +331,26 @@ methods! {
     Tsit5 => tsit5,
     /// Dormand's and Prince's method, order 8, with error control.
     Dop853 => dop853,
+    /// Symmetric top and rest, order 2: keeps |L|, and the energy within bounds.
+    Split2 => split2,
+    /// The same composed to order 4.
+    Split4 => split4,
+    /// The same composed to order 6.
+    Split6 => split6,
+    /// The same composed to order 8.
+    Split8 => split8,
+    /// Rotations about the three axes, order 2: the simplest splitting.
+    Axes2 => axes2,
+    /// Commutator-free Lie-group method, order 4, on the lecture's q and L.
+    Cf4 => cf4,
+    /// Buss's augmented method, order 2, as games use it.
+    Buss2 => buss2,
 }
 
 impl Method {
     /// The form in which the method integrates orientation, for the form of orientation asked for.
     pub(crate) fn form(self, matrix: bool) -> Form {
-        match (self.in_body_axes(), matrix) {
+        match (self.in_body_axes(), matrix && self != Self::Exact) {
             (true, _) => Form::Body,
             (false, true) => Form::WorldMatrix,
             (false, false) => Form::WorldQuaternion,
@@ -313,11 +388,14 @@ struct Step<'a, Y> {
 
 /// What makes one method different from another; it owns the vectors it works with.
 trait Kernel<Y: StateVector>: Debug + Send {
-    /// Evaluations of f in one step, that of `k0` included.
+    /// Evaluations of f in one step, that of `k0` included where it is needed.
     const EVALUATIONS: u32;
 
     /// The power of h with which the estimate of a step's error falls; 0 where there is none.
     const ERROR_ORDER: f64 = 0.0;
+
+    /// Whether a step needs the slope at its start; else `k0` is not worked out for it.
+    const NEEDS_SLOPE: bool = true;
 
     fn new(n: usize) -> Self;
 

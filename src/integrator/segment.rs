@@ -1,5 +1,8 @@
-//! The motion within one step: a polynomial in time.
+//! The motion within one step: a polynomial in time, or a closed form.
 
+use std::sync::Arc;
+
+use super::exact::ClosedMotion;
 use crate::state::Moment;
 
 /// A piece of the motion.
@@ -23,11 +26,50 @@ pub struct Segment {
     pub since: f64,
     /// How many numbers are integrated.
     pub dimension: usize,
+    /// The numbers as functions of time.
+    pub curve: Curve,
+}
+
+/// How the numbers of a piece follow from time.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+pub enum Curve {
     /// `c_k` for k = 0, 1, …, each of `dimension` numbers.
-    pub coefficients: Vec<f64>,
+    Polynomial(Vec<f64>),
+    /// A closed form, and the time from its beginning to that of the piece [s].
+    Closed(#[cfg_attr(feature = "serde", serde(with = "shared"))] Arc<ClosedMotion>, f64),
+}
+
+impl Default for Curve {
+    fn default() -> Self {
+        Self::Polynomial(Vec::new())
+    }
+}
+
+/// A shared motion in a file is the motion.
+#[cfg(feature = "serde")]
+mod shared {
+    use super::{Arc, ClosedMotion};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(motion: &Arc<ClosedMotion>, to: S) -> Result<S::Ok, S::Error> {
+        motion.as_ref().serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Arc<ClosedMotion>, D::Error> {
+        ClosedMotion::deserialize(from).map(Arc::new)
+    }
 }
 
 impl Segment {
+    /// Whether every coefficient is finite; without branches, so that it costs a few nanoseconds.
+    pub(super) fn is_finite(&self) -> bool {
+        match &self.curve {
+            Curve::Polynomial(coefficients) => coefficients.iter().fold(true, |finite, c| finite & c.is_finite()),
+            Curve::Closed(..) => true,
+        }
+    }
+
     /// The cubic through states and slopes at both ends (Hermite):
     ///
     /// ```text
@@ -35,8 +77,7 @@ impl Segment {
     /// ```
     pub(super) fn set_hermite(&mut self, at: Moment, h: f64, [y0, k0, y1, k1]: [&[f64]; 4]) {
         let n = y0.len();
-        self.set_span(at, h, n, 4);
-        let (c0, rest) = self.coefficients.split_at_mut(n);
+        let (c0, rest) = self.set_span(at, h, n, 4).split_at_mut(n);
         let (c1, rest) = rest.split_at_mut(n);
         let (c2, c3) = rest.split_at_mut(n);
         for i in 0..n {
@@ -48,40 +89,41 @@ impl Segment {
         }
     }
 
-    /// A segment from `at` to `at + h` for `n` polynomials with so many terms.
-    pub(super) fn set_span(&mut self, at: Moment, h: f64, n: usize, terms: usize) {
+    /// A segment from `at` to `at + h` for `n` polynomials with so many terms; their coefficients.
+    pub(super) fn set_span(&mut self, at: Moment, h: f64, n: usize, terms: usize) -> &mut [f64] {
         self.start = at.time;
         self.length = h;
         self.end = at.time + h;
         self.since = at.since;
         self.dimension = n;
-        self.coefficients.resize(terms * n, 0.0);
+        if let Curve::Closed(..) = self.curve {
+            self.curve = Curve::default();
+        }
+        let Curve::Polynomial(coefficients) = &mut self.curve else { return &mut [] };
+        coefficients.resize(terms * n, 0.0);
+        coefficients
     }
 
-    /// The polynomial of the number `i`, term by term.
-    pub(super) fn set_terms<const TERMS: usize>(&mut self, i: usize, terms: [f64; TERMS]) {
-        for (k, c) in terms.into_iter().enumerate() {
-            self.coefficients[k * self.dimension + i] = c;
+    /// A piece of a closed form from `start` on, `lead` after the form's beginning [s].
+    pub(super) fn set_closed(&mut self, start: f64, since: f64, h: f64, lead: f64, motion: Arc<ClosedMotion>) {
+        let dimension = motion.dimension();
+        *self = Self { start, length: h, end: start + h, since, dimension, curve: Curve::Closed(motion, lead) };
+    }
+
+    /// The closed form that the piece is of.
+    pub(super) fn closed_motion(&self) -> Option<&Arc<ClosedMotion>> {
+        match &self.curve {
+            Curve::Closed(motion, _) => Some(motion),
+            Curve::Polynomial(_) => None,
         }
     }
 
-    /// The polynomial of the number `i` from the nested form of the dense outputs of Hairer, Nørsett
-    /// and Wanner:
-    ///
-    /// ```text
-    /// r₀ + s (r₁ + u (r₂ + s (r₃ + u (r₄ + …)))),   u = 1 − s
-    /// ```
-    pub(super) fn set_alternating<const TERMS: usize>(&mut self, i: usize, r: [f64; TERMS]) {
-        let mut c = [0.0; TERMS];
-        c[0] = r[TERMS - 1];
-        for k in (0..TERMS - 1).rev() {
-            // times s, or times 1 − s, and the next r
-            for power in (1..TERMS - k).rev() {
-                c[power] = if k % 2 == 0 { c[power - 1] } else { c[power] - c[power - 1] };
-            }
-            c[0] = if k % 2 == 0 { r[k] } else { c[0] + r[k] };
+    /// Whether the piece describes `n` numbers, as it should where it was read from a file.
+    pub(crate) fn fits(&self, n: usize) -> bool {
+        match &self.curve {
+            Curve::Polynomial(c) => [0, n].contains(&self.dimension) && (self.dimension == 0 || c.len() % n == 0),
+            Curve::Closed(motion, _) => motion.dimension() == self.dimension,
         }
-        self.set_terms(i, c);
     }
 
     /// The numbers at `t` [s].
@@ -91,8 +133,12 @@ impl Segment {
 
     /// The numbers at a time from the start [s].
     pub fn at_offset(&self, offset: f64, y: &mut [f64]) {
+        let coefficients = match &self.curve {
+            Curve::Polynomial(coefficients) => coefficients,
+            Curve::Closed(motion, lead) => return motion.at(lead + offset, y),
+        };
         let s = offset / self.length;
-        let mut terms = self.coefficients.chunks_exact(self.dimension.max(1)).rev();
+        let mut terms = coefficients.chunks_exact(self.dimension.max(1)).rev();
         match terms.next() {
             Some(highest) => y.copy_from_slice(highest),
             None => return,

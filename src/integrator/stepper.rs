@@ -28,13 +28,12 @@ pub(super) struct Stepper<P: Problem, K> {
     at: Moment,
     h: f64,
     start: P::Y,
+    start_rest: P::Y,
     slope: P::Y,
     end_slope: P::Y,
     /// Whether the slope at the front is known, in `end_slope`.
     slope_known: bool,
     increment: P::Y,
-    trial: P::Y,
-    trial_rest: P::Y,
     /// Length that error control proposes for the next step [s]; 0 where it has none yet.
     proposal: f64,
     /// Error of the last accepted step, as a part of what is allowed [-].
@@ -62,12 +61,11 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             at: Moment { time: 0.0, since: 0.0 },
             h: 0.0,
             start: zeros(),
+            start_rest: zeros(),
             slope: zeros(),
             end_slope: zeros(),
             slope_known: false,
             increment: zeros(),
-            trial: zeros(),
-            trial_rest: zeros(),
             proposal: 0.0,
             last_error: LEAST_ERROR,
         }
@@ -78,7 +76,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         self.at = front.moment();
         if self.slope_known {
             std::mem::swap(&mut self.slope, &mut self.end_slope);
-        } else {
+        } else if K::NEEDS_SLOPE {
             problem.rate(self.at, &front.y, &mut self.slope);
             counts.evaluations += 1;
         }
@@ -86,26 +84,23 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         self.start.clone_from(&front.y);
     }
 
-    /// Tries a step of length `h` from the start into `trial`.
+    /// Moves the front's numbers by a step of length `h` from the start.
     #[inline]
-    fn attempt(&mut self, problem: &mut P, rest: &P::Y, h: f64, counts: &mut Counts) {
+    fn attempt(&mut self, problem: &mut P, front: &mut Front<P::Y>, h: f64, counts: &mut Counts) {
         self.h = h;
         self.kernel.step(problem, self.at, &self.start, &self.slope, h, &mut self.increment);
-        self.trial.clone_from(&self.start);
-        self.trial_rest.clone_from(rest);
-        self.trial.add_compensated(&self.increment, &mut self.trial_rest);
-        counts.evaluations += u64::from(K::EVALUATIONS) - 1;
+        front.y.add_compensated(&self.increment, &mut front.rest);
+        counts.evaluations += u64::from(K::EVALUATIONS) - u64::from(K::NEEDS_SLOPE);
     }
 
-    /// Makes the trial the new front.
+    /// Completes a step that ends at `time`.
     #[inline]
     fn accept(&mut self, problem: &mut P, front: &mut Front<P::Y>, time: Time, counts: &mut Counts) {
-        let strayed = problem.correction(&self.trial, &mut self.increment);
-        if self.projection {
-            self.trial.add_compensated(&self.increment, &mut self.trial_rest);
-        }
-        std::mem::swap(&mut front.y, &mut self.trial);
-        std::mem::swap(&mut front.rest, &mut self.trial_rest);
+        let strayed = if self.projection {
+            problem.project(&mut front.y, &mut front.rest)
+        } else {
+            problem.orientation_error(&front.y)
+        };
         front.time = time;
         counts.steps += 1;
         counts.orientation_drift = counts.orientation_drift.max(strayed);
@@ -114,16 +109,17 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
     /// A first length, from the sizes of the first and second derivative (Hairer, Nørsett, Wanner,
     /// Solving ODEs I, §II.4).
     fn first_length(&mut self, problem: &mut P, limits: &Limits, left: f64, counts: &mut Counts) -> f64 {
+        let Self { start_rest: guess, start, slope, end_slope, increment, .. } = self;
         let size = |problem: &P, v: &P::Y, y: &P::Y| problem.error_size(y, y, v, &limits.scales) / limits.local;
-        let d1 = size(problem, &self.slope, &self.start);
+        let d1 = size(problem, slope, start);
         let h0 = if d1 > 0.0 { (0.01 / (d1 * limits.local)).min(left) } else { left };
 
         // an Euler step shows how fast the slope changes
-        self.trial.set_sum(&self.start, h0, &self.slope);
-        problem.rate(self.at.after(h0), &self.trial, &mut self.end_slope);
+        guess.set_sum(start, h0, slope);
+        problem.rate(self.at.after(h0), guess, end_slope);
         counts.evaluations += 1;
-        self.increment.set_sum(&self.end_slope, -1.0, &self.slope);
-        let d2 = size(problem, &self.increment, &self.start) / h0;
+        increment.set_sum(end_slope, -1.0, slope);
+        let d2 = size(problem, increment, start) / h0;
         let steepest = d1.max(d2);
         if steepest > 0.0 { libm::pow(0.01 / steepest, 1.0 / K::ERROR_ORDER).min(100.0 * h0) } else { left }
     }
@@ -140,6 +136,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         if self.proposal <= 0.0 {
             self.proposal = self.first_length(problem, limits, left, counts);
         }
+        self.start_rest.clone_from(&front.rest);
         let mut grow = GROWTH.1;
         for _ in 0..REFUSALS {
             // the proposal, so that no sliver is left before the limit
@@ -156,10 +153,9 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
                 return Err(FlightError::StepTooShort(h));
             }
 
-            self.attempt(problem, &front.rest, h, counts);
-            let finite = self.trial.as_ref().iter().sum::<f64>().is_finite();
-            let error = self.kernel.error(problem, &self.start, &self.trial, h, &limits.scales);
-            let size = if finite { error / limits.local } else { f64::INFINITY };
+            self.attempt(problem, front, h, counts);
+            let error = self.kernel.error(problem, &self.start, &front.y, h, &limits.scales);
+            let size = if front.y.is_finite() { error / limits.local } else { f64::INFINITY };
             if size <= 1.0 {
                 let size = size.max(LEAST_ERROR);
                 let factor = CAUTION
@@ -176,6 +172,8 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
 
             // refused, or not a number: shorter, and no growth right after
             counts.rejected += 1;
+            front.y.clone_from(&self.start);
+            front.rest.clone_from(&self.start_rest);
             grow = 1.0;
             let factor = if size.is_finite() { CAUTION * libm::pow(size, -1.0 / K::ERROR_ORDER) } else { GROWTH.0 };
             self.proposal = h * factor.clamp(GROWTH.0, CAUTION);
@@ -200,7 +198,7 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
                 let last = left <= step * (1.0 + STEP_REMAINDER);
                 let h = if last { left } else { step };
                 let time = if last { Time::new(limit) } else { front.time + h };
-                self.attempt(problem, &front.rest, h, counts);
+                self.attempt(problem, front, h, counts);
                 self.accept(problem, front, time, counts);
                 Ok(())
             }
@@ -209,9 +207,13 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
     }
 
     fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts) {
+        if !K::NEEDS_SLOPE {
+            problem.rate(self.at, &self.start, &mut self.slope);
+            counts.evaluations += 1;
+        }
         if !self.slope_known {
             problem.rate(self.at.after(self.h), &front.y, &mut self.end_slope);
-            self.slope_known = true;
+            self.slope_known = K::NEEDS_SLOPE;
             counts.evaluations += 1;
         }
         let Self { at, h, start, slope, end_slope, kernel, .. } = self;

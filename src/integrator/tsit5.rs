@@ -24,6 +24,8 @@ pub(super) struct Kernel<Y> {
     /// The start, and the slopes k₁ … k₇.
     at: Moment,
     k: [Y; 7],
+    /// Coefficients of s, s² and s³.
+    c: [Y; 3],
 }
 
 impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
@@ -32,7 +34,12 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
 
     fn new(n: usize) -> Self {
         let at = Moment { time: 0.0, since: 0.0 };
-        Self { stage: Y::zeros(n), at, k: std::array::from_fn(|_| Y::zeros(n)) }
+        Self {
+            stage: Y::zeros(n),
+            at,
+            k: std::array::from_fn(|_| Y::zeros(n)),
+            c: std::array::from_fn(|_| Y::zeros(n)),
+        }
     }
 
     #[rustfmt::skip]
@@ -56,39 +63,34 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
 
     #[rustfmt::skip]
     fn error<P: Problem<Y = Y>>(&mut self, problem: &mut P, y0: &Y, y1: &Y, h: f64, scales: &Scales) -> f64 {
-        let Self { stage, at, k } = self;
+        let Self { stage, at, k, .. } = self;
         let [k1, k2, k3, k4, k5, k6, k7] = k;
         problem.rate(at.after(h), y1, k7);
         stage.set_increment(h, [(-0.00178001105222577714, k1), (-0.0008164344596567469, k2), (0.007880878010261995, k3), (-0.1447110071732629, k4), (0.5823571654525552, k5), (-0.45808210592918697, k6), (1.0 / 66.0, k7)]);
         problem.error_size(y0, y1, stage, scales)
     }
 
+    #[rustfmt::skip]
     fn interpolate<P: Problem<Y = Y>>(&mut self, _problem: &mut P, step: &Step<'_, Y>, segment: &mut Segment) -> u32 {
-        // y(s) = y₀ + h Σ_i b_i(s) k_i
-        segment.set_span(step.at, step.h, step.y0.as_ref().len(), 5);
-        let (y0, y1) = (step.y0.as_ref(), step.y1.as_ref());
-        let [k1, k2, k3, k4, k5, k6, _] = &self.k;
-        let stages = [k1, k2, k3, k4, k5, k6, step.k1].map(AsRef::as_ref);
-        for i in 0..y0.len() {
-            let [c1, c2, c3, mut c4] =
-                [0, 1, 2, 3].map(|power| step.h * DENSE.iter().zip(&stages).map(|(b, k)| b[power] * k[i]).sum::<f64>());
+        // y(s) = y₀ + h Σ_i b_i(s) k_i, by powers of s
+        let Self { k: [k1, k2, k3, k4, k5, k6, _], c: [c1, c2, c3], .. } = self;
+        let k7 = step.k1;
+        c1.set_increment(step.h, [(1.0, k1)]);
+        c2.set_increment(step.h, [(-2.763706197274826, k1), (0.1317, k2), (3.9302962368947516, k3), (-12.411077166933676, k4), (37.50931341651104, k5), (-27.896526289197286, k6), (1.5, k7)]);
+        c3.set_increment(step.h, [(2.9132554618219126, k1), (-0.2234, k2), (-5.941033872131505, k3), (30.33818863028232, k4), (-88.1789048947664, k5), (65.09189467479366, k6), (-4.0, k7)]);
 
-            // the polynomial ends where the step does, its projection included
-            c4 += (y1[i] - y0[i]) - (c1 + c2 + c3 + c4);
-            segment.set_terms(i, [y0[i], c1, c2, c3, c4]);
+        // the polynomial ends where the step does, its projection included
+        let [c1, c2, c3] = [&*c1, c2, c3].map(AsRef::as_ref);
+        let (y0, y1) = (step.y0.as_ref(), step.y1.as_ref());
+        let n = y0.len();
+        let terms = segment.set_span(step.at, step.h, n, 5);
+        for i in 0..n {
+            terms[i] = y0[i];
+            terms[n + i] = c1[i];
+            terms[2 * n + i] = c2[i];
+            terms[3 * n + i] = c3[i];
+            terms[4 * n + i] = (y1[i] - y0[i]) - (c1[i] + c2[i] + c3[i]);
         }
         0
     }
 }
-
-/// `b_i(s)`: coefficients of s, s², s³, s⁴ for the stages 1 … 7.
-#[rustfmt::skip]
-const DENSE: [[f64; 4]; 7] = [
-    [1.0, -2.763706197274826,  2.9132554618219126, -1.0530884977290216],
-    [0.0,  0.1317,            -0.2234,              0.1017],
-    [0.0,  3.9302962368947516, -5.941033872131505,  2.490627285651253],
-    [0.0, -12.411077166933676, 30.33818863028232, -16.548102889244902],
-    [0.0, 37.50931341651104,  -88.1789048947664,   47.37952196281928],
-    [0.0, -27.896526289197286, 65.09189467479366, -34.87065786149661],
-    [0.0,  1.5,                -4.0,                2.5],
-];

@@ -13,6 +13,7 @@ impl Plan {
     /// Plan: 2 bodies (1 fixed), heun, h = 0.001 s
     ///   flight 1   die: free, 13 numbers
     ///              uniform_gravity
+    ///              heun: as asked for
     ///   pairs      die–floor: bounce, restitution 0.5
     ///   left out   effect 2 (drag): all its coefficients are 0
     /// ```
@@ -30,10 +31,10 @@ impl Plan {
         if fixed > 0 {
             write!(out, " ({fixed} fixed)")?;
         }
-        write!(out, ", {}", self.method)?;
+        write!(out, ", {}", self.options.method.map_or("auto", crate::integrator::Method::name))?;
         match (self.options.step, self.tolerance()) {
             (Some(step), _) => writeln!(out, ", h = {} s", short(step))?,
-            (None, Some(tolerance)) => writeln!(out, ", step found for tolerance {}", short(tolerance))?,
+            (None, Some(tolerance)) => writeln!(out, ", tolerance {}", short(tolerance))?,
             (None, None) => writeln!(out)?,
         }
 
@@ -90,6 +91,7 @@ impl Plan {
             names.iter().map(|(name, n)| if *n == 1 { (*name).to_owned() } else { format!("{name} ×{n}") }).collect();
         let effects = if effects.is_empty() { "nothing acts on it".to_owned() } else { effects.join(", ") };
         writeln!(out, "  {:<10} {effects}", "")?;
+        writeln!(out, "  {:<10} {}: {}", "", group.method, group.why)?;
         if !group.switches.is_empty() {
             let times: Vec<_> = group.switches.iter().map(|t| short(*t)).collect();
             writeln!(out, "  {:<10} steps end at the switches t = {} s", "", times.join(", "))?;

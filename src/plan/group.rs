@@ -1,7 +1,7 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
 use super::Binding;
-use crate::freedom::{Chart, Scales};
+use crate::freedom::{Chart, RotationSplit, Scales};
 use crate::integrator::{Problem, StateVector};
 use crate::state::{BodyMotion, Load, Moment};
 
@@ -19,6 +19,7 @@ pub struct Group<Y> {
     /// What an effect on some of the bodies is shown.
     shown: Vec<BodyMotion>,
     shown_loads: Vec<Load>,
+    depends_on_velocity: bool,
     numbers: std::marker::PhantomData<fn() -> Y>,
 }
 
@@ -26,7 +27,9 @@ impl<Y> Group<Y> {
     /// Bodies with these coordinates; of `motions`, mass, inertia and what no coordinate moves stay.
     pub(crate) fn new(charts: Vec<Chart>, motions: Vec<BodyMotion>, bindings: Vec<Binding>) -> Self {
         let n = motions.len();
+        let depends_on_velocity = bindings.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
         Self {
+            depends_on_velocity,
             charts,
             bindings,
             motions,
@@ -116,14 +119,82 @@ impl<Y: StateVector> Problem for Group<Y> {
         }
     }
 
+    fn is_loaded(&self) -> bool {
+        !self.bindings.is_empty()
+    }
+
+    fn depends_on_velocity(&self) -> bool {
+        self.depends_on_velocity
+    }
+
     #[inline]
-    fn correction(&self, y: &Y, dy: &mut Y) -> f64 {
-        let (y, dy) = (y.as_ref(), dy.as_mut());
-        let (mut at, mut worst) = (0, 0.0_f64);
+    fn flow(&mut self, y: &mut Y, h: f64, split: RotationSplit) {
+        let (y, mut at) = (y.as_mut(), 0);
         for chart in &self.charts {
             let n = chart.dimension();
-            worst = worst.max(chart.correction(&y[at..at + n], &mut dy[at..at + n]));
+            chart.flow(&mut y[at..at + n], h, split);
             at += n;
+        }
+    }
+
+    #[inline]
+    fn to_generator(&self, y: &Y, k: &mut Y) {
+        let (y, k, mut at) = (y.as_ref(), k.as_mut(), 0);
+        for chart in &self.charts {
+            if let Some((part, spin)) = chart.spin_part(at) {
+                spin.to_generator(&y[part.clone()], &mut k[part]);
+            }
+            at += chart.dimension();
+        }
+    }
+
+    #[inline]
+    fn act(&self, y: &mut Y, h: f64, v: &Y) {
+        let (y, v, mut at) = (y.as_mut(), v.as_ref(), 0);
+        for chart in &self.charts {
+            let end = at + chart.dimension();
+            let part = chart.spin_part(at);
+            let straight = part.as_ref().map_or(end, |(part, _)| part.start);
+            for i in at..straight {
+                y[i] += h * v[i];
+            }
+            if let Some((part, spin)) = part {
+                spin.act(&mut y[part.clone()], h, &v[part]);
+            }
+            at = end;
+        }
+    }
+
+    #[inline]
+    fn add_bracket(&self, c: f64, a: &mut Y, b: &Y) {
+        let (a, b, mut at) = (a.as_mut(), b.as_ref(), 0);
+        for chart in &self.charts {
+            if let Some((part, spin)) = chart.spin_part(at) {
+                spin.add_bracket(c, &mut a[part.clone()], &b[part]);
+            }
+            at += chart.dimension();
+        }
+    }
+
+    #[inline]
+    fn project(&mut self, y: &mut Y, rest: &mut Y) -> f64 {
+        let (y, rest) = (y.as_mut(), rest.as_mut());
+        let (mut at, mut worst) = (0, 0.0_f64);
+        for chart in &self.charts {
+            let part = at..at + chart.dimension();
+            worst = worst.max(chart.project(&mut y[part.clone()], &mut rest[part.clone()]));
+            at = part.end;
+        }
+        worst
+    }
+
+    fn orientation_error(&self, y: &Y) -> f64 {
+        let y = y.as_ref();
+        let (mut at, mut worst) = (0, 0.0_f64);
+        for chart in &self.charts {
+            let part = at..at + chart.dimension();
+            worst = worst.max(chart.orientation_error(&y[part.clone()]));
+            at = part.end;
         }
         worst
     }

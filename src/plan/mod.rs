@@ -11,9 +11,12 @@ use crate::closest::vertex_plane::{Collider, Plane};
 use crate::contact::Material;
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
-use crate::freedom::{Chart, Form, Freedom};
-use crate::integrator::{Control, Flight, Integration, Limits, Method, Problem, StateVector};
+use crate::freedom::{Chart, Freedom};
+use crate::integrator::{
+    ClosedFlight, ClosedMotion, Control, Flight, Integration, Limits, Method, Problem, StateVector,
+};
 use crate::mass::MassProperties;
+use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
 use crate::scene::{Body, Orientation, RunOptions, Scene};
 use crate::shape::Shape;
@@ -21,6 +24,7 @@ use crate::state::{BodyMotion, BodyState};
 
 mod explain;
 mod group;
+mod method;
 
 pub use group::Group;
 
@@ -75,6 +79,10 @@ pub struct FlightGroup {
     /// Its bodies, as places in the scene; fixed ones among them are only seen by effects.
     pub members: Vec<usize>,
     pub(crate) bindings: Vec<Binding>,
+    /// The method that integrates it.
+    pub method: Method,
+    /// Why this one.
+    pub(crate) why: String,
     /// Times at which a load jumps [s], rising.
     pub switches: Vec<f64>,
     /// The moving bodies that may meet a fixed plane.
@@ -103,7 +111,6 @@ pub struct Plan {
     bodies: Vec<PlannedBody>,
     groups: Vec<FlightGroup>,
     left_out: Vec<LeftOut>,
-    method: Method,
 }
 
 /// Two plans are equal when they were compiled from the same scene with the same options.
@@ -157,9 +164,12 @@ impl Plan {
             }
         }
         let mut left_out = Vec::new();
-        let groups = Grouping::new(&scene, &bodies, &mut left_out)?.groups(&scene, &bodies, options, &mut left_out)?;
-        let method = options.method.unwrap_or(Method::Dop853);
-        let plan = Self { scene, options: options.clone(), bodies, groups, left_out, method };
+        let mut groups =
+            Grouping::new(&scene, &bodies, &mut left_out)?.groups(&scene, &bodies, options, &mut left_out)?;
+        for group in &mut groups {
+            group.choose_method(&bodies, options)?;
+        }
+        let plan = Self { scene, options: options.clone(), bodies, groups, left_out };
 
         // every freedom is tried once, so that a start that it does not allow is found here
         for index in 0..plan.groups.len() {
@@ -183,9 +193,10 @@ impl Plan {
         &self.left_out
     }
 
-    /// The method of integration.
+    /// The method of integration: the one asked for, or that of the first group without a closed form.
     pub fn method(&self) -> Method {
-        self.method
+        let chosen = self.groups.iter().map(|group| group.method).find(|&method| method != Method::Exact);
+        self.options.method.or(chosen).unwrap_or(Method::Exact)
     }
 
     /// How to run it.
@@ -203,19 +214,15 @@ impl Plan {
         self.options.tolerance.or_else(|| self.options.step.is_none().then_some(DEFAULT_TOLERANCE))
     }
 
-    /// The form in which the orientation of free and pivoted bodies is integrated.
-    pub fn form(&self) -> Form {
-        self.method.form(self.options.orientation == Orientation::Matrix)
-    }
-
     /// The coordinates of a group's bodies; those in `held` rest.
     pub(crate) fn charts(&self, group: usize, held: &[usize]) -> Result<Vec<Chart>> {
+        let form = self.groups[group].method.form(self.options.orientation == Orientation::Matrix);
         let chart = |&index: &usize| {
             let body = &self.bodies[index];
             if body.fixed || held.contains(&index) {
                 return Ok(Chart::Fixed);
             }
-            Chart::new(&body.freedom, self.form(), &body.start, &self.scene.bodies[index].place())
+            Chart::new(&body.freedom, form, &body.start, &self.scene.bodies[index].place())
         };
         self.groups[group].members.iter().map(chart).collect()
     }
@@ -254,7 +261,9 @@ impl Plan {
 
         let control = match control {
             Control::Error(limits) if !self.groups[group].pairs.is_empty() => {
-                let longest = limits.longest.min(self.first_step(limits.scales.time));
+                // finer runs look more often, so that what the coarser missed shows in their difference
+                let finer = libm::pow(limits.local / LOOKED_AT_LOCAL, 1.0 / 8.0);
+                let longest = limits.longest.min(finer * self.first_step(limits.scales.time));
                 Control::Error(Limits { longest, ..limits })
             }
             other => other,
@@ -278,10 +287,16 @@ impl Plan {
         motions: &[BodyMotion],
         y: &[f64],
     ) -> Box<dyn Flight> {
+        let starts = (self.groups[group].method == Method::Exact).then(|| self.starts(group, &charts, motions));
         let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
         debug_assert_eq!(problem.dimension(), y.len());
-        let integrator = self.method.integrator(&problem, control, self.options.projection);
-        Box::new(Integration::new(problem, integrator, t, y))
+        match self.groups[group].method.integrator(&problem, control, self.options.projection) {
+            Some(integrator) => Box::new(Integration::new(problem, integrator, t, y)),
+            None => {
+                let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
+                Box::new(ClosedFlight::new(problem, motion, control))
+            }
+        }
     }
 
     /// A step that follows every body's turning and the span, from which a tolerance is worked out [s].
@@ -294,6 +309,8 @@ impl Plan {
 
 /// Angle that the fastest body turns in the first try of a step [rad].
 const FIRST_ANGLE: f64 = 0.25;
+/// Error of a step at which groups that may meet something step as the first try does [-].
+const LOOKED_AT_LOCAL: f64 = 1.0e-6;
 /// Fewest steps of the first try [-].
 const FIRST_STEPS: f64 = 32.0;
 
@@ -431,7 +448,8 @@ impl Grouping {
             let mut switches: Vec<f64> = bindings.iter().flat_map(|b| b.effect.as_effect().switches()).collect();
             switches.sort_by(f64::total_cmp);
             switches.dedup();
-            groups.push(FlightGroup { members, bindings, switches, pairs: Vec::new() });
+            let (method, why) = (Method::Exact, String::new());
+            groups.push(FlightGroup { members, bindings, method, why, switches, pairs: Vec::new() });
         }
         pairs(scene, bodies, options, &mut groups, left_out)?;
         Ok(groups)

@@ -8,7 +8,7 @@ use super::estimate::{self, Comparison};
 use super::{Failure, RunError, Simulation, SimulationError};
 use crate::error::{Error, Result};
 use crate::freedom::Scales;
-use crate::integrator::{Control, Limits};
+use crate::integrator::{Control, Limits, Method};
 use crate::plan::Plan;
 use crate::scene::{RunOptions, Scene, Span};
 use crate::trajectory::Trajectory;
@@ -170,6 +170,17 @@ impl Plan {
                 run.report.estimated_by = knob.estimated_by().into();
                 run.report.met = Some(comparison.worst <= tolerance);
                 run.report.horizon = comparison.horizon;
+            }
+
+            // closed forms and nothing to meet: rounding is all there is
+            let closed = plan.groups().iter().all(|group| group.method == Method::Exact && group.pairs.is_empty());
+            if closed && failure.is_none() {
+                if self.options().estimate {
+                    run.report.error_estimate = Some(self.rounding(span));
+                    run.report.estimated_by = "rounding of the closed form".into();
+                    run.report.met = Some(true);
+                }
+                return Ok(run);
             }
 
             // done, or at the end of what is affordable

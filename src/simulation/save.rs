@@ -112,12 +112,7 @@ impl Lane {
             Err(error) => return Some(Err(error)),
         }
         let n = self.flight.saved_front().y.len();
-        let terms = saved.segment.coefficients.len();
-        if saved.front.y.len() != n
-            || saved.front.rest.len() != n
-            || ![0, n].contains(&saved.segment.dimension)
-            || (n > 0 && terms % n != 0)
-        {
+        if saved.front.y.len() != n || saved.front.rest.len() != n || !saved.segment.fits(n) {
             return None;
         }
         self.flight.resume(&saved.front, saved.segment, saved.counts);

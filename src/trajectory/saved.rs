@@ -37,7 +37,7 @@ impl Saved<'_> {
             plan.groups().get(phase.group).is_some_and(|group| {
                 let members = group.members.len();
                 phase.charts.len() == members && phase.motions.len() == members
-            }) && phase.segments.iter().all(|s| s.dimension == n && (n == 0 || s.coefficients.len() % n == 0))
+            }) && phase.segments.iter().all(|s| s.fits(n))
         };
         self.states.len() == self.times.len() * bodies
             && self.phases.iter().all(phase_fits)

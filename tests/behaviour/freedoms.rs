@@ -1,8 +1,8 @@
 //! Reduced coordinates tell the same motion with fewer numbers.
 
-use super::{distance, last, run};
+use super::{distance, last, run, stepping};
 use bryla::math::Vector3;
-use bryla::{Body, Cuboid, Drag, Freedom, Method, Scene, Thruster, UniformGravity};
+use bryla::{Body, Cuboid, Drag, Freedom, Method, RunOptions, Scene, Thruster, UniformGravity};
 
 /// The hovercraft of the catalogue, in a plane or free.
 fn hovercraft(freedom: Freedom) -> Scene {
@@ -14,7 +14,10 @@ fn hovercraft(freedom: Freedom) -> Scene {
 #[test]
 fn planar_and_full_hovercraft_differ_by_truncation_only() {
     let (planar, full) = (hovercraft(Freedom::planar([0.0, 0.0, 1.0])), hovercraft(Freedom::Free));
-    for &method in Method::ALL {
+    // the splittings of high order refuse drag
+    let allowed = |method: &Method| planar.compile(&RunOptions::method(*method).step(0.04)).is_ok();
+    assert!(stepping().filter(allowed).count() >= 6);
+    for method in stepping().filter(allowed) {
         let apart = |step| distance(&last(&run(&planar, 20.0, method, step)), &last(&run(&full, 20.0, method, step)));
         let (coarse, fine) = (apart(0.04), apart(0.02));
         let rounding = 1e-9;

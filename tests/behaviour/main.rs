@@ -21,6 +21,11 @@ fn free_body() -> Scene {
     scene
 }
 
+/// The methods that take steps: all but the closed form, which has no step and no slope.
+fn stepping() -> impl Iterator<Item = Method> {
+    Method::ALL.iter().copied().filter(|&method| method != Method::Exact)
+}
+
 /// Runs with a method and a step, without an estimate.
 fn run(scene: &Scene, end: f64, method: Method, step: f64) -> Trajectory {
     scene.run(0.0..end, &RunOptions::method(method).step(step).estimate(false)).unwrap()

@@ -1,0 +1,104 @@
+//! Which method a flight group gets, and the closed form where there is one.
+
+use super::{FlightGroup, Plan, PlannedBody};
+use crate::effect::AnyEffect;
+use crate::error::{Error, Result};
+use crate::freedom::{Chart, Freedom};
+use crate::integrator::Method;
+use crate::integrator::exact::{Pull, Start};
+use crate::math::Vector3;
+use crate::scene::RunOptions;
+use crate::state::{BodyMotion, Load};
+
+impl FlightGroup {
+    /// Chooses the group's method: the one asked for, or the closed form where there is one, else
+    /// Dop853.
+    pub(super) fn choose_method(&mut self, bodies: &[PlannedBody], options: &RunOptions) -> Result<()> {
+        let closed = self.closed_form(bodies);
+        (self.method, self.why) = match (options.method, closed) {
+            (None, Ok(())) => (Method::Exact, "no torque, and a force with a closed form".to_owned()),
+            (None, Err(reason)) => (Method::Dop853, format!("{reason} has no closed form")),
+            (Some(Method::Exact), Err(reason)) => {
+                let reason = format!("exact: {reason} has no closed form; leave the method out, or name another");
+                return Err(Error::refused("run: method", reason));
+            }
+            (Some(method), _) => (method, "as asked for".to_owned()),
+        };
+        let moving = self.bindings.iter().find(|binding| binding.effect.as_effect().depends_on_velocity());
+        if let (true, Some(binding)) = (self.method.needs_positional_loads(), moving) {
+            let reason = format!(
+                "{}: the load of {} depends on velocities, which leaves it order 4; use split4 or dop853",
+                self.method,
+                binding.effect.name()
+            );
+            return Err(Error::refused("run: method", reason));
+        }
+        Ok(())
+    }
+
+    /// Whether the motion has a closed form; else what stands against it.
+    fn closed_form(&self, bodies: &[PlannedBody]) -> std::result::Result<(), String> {
+        for (place, &index) in self.members.iter().enumerate() {
+            let body = &bodies[index];
+            for binding in self.bindings.iter().filter(|binding| binding.members.contains(&place)) {
+                let closed = match (binding.effect.as_ref(), &body.freedom) {
+                    (AnyEffect::UniformGravity(_), Freedom::Free | Freedom::Planar(_)) => true,
+                    (AnyEffect::Drag(drag), Freedom::Free) => {
+                        drag.quadratic == 0.0 && drag.angular_linear == 0.0 && drag.angular_quadratic == 0.0
+                    }
+                    _ => false,
+                };
+                if !closed {
+                    return Err(format!("{} on {}", binding.effect.name(), body.name));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What acts on the translation of a member, where it has a closed form.
+    fn pull(&self, place: usize, mass: f64) -> Pull {
+        let (mut acceleration, mut drag, mut carried) = (Vector3::zeros(), 0.0, Vector3::zeros());
+        for binding in self.bindings.iter().filter(|binding| binding.members.contains(&place)) {
+            match binding.effect.as_ref() {
+                AnyEffect::UniformGravity(gravity) => acceleration += Vector3::from(gravity.acceleration),
+                AnyEffect::Drag(air) => {
+                    drag += air.linear / mass;
+                    carried += air.linear / mass * Vector3::from(air.wind);
+                }
+                _ => {}
+            }
+        }
+        let wind = if drag > 0.0 { carried / drag } else { Vector3::zeros() };
+        Pull { acceleration, drag, wind }
+    }
+}
+
+impl Plan {
+    /// The closed motions of a group's bodies from these motions on.
+    pub(super) fn starts(&self, group: usize, charts: &[Chart], motions: &[BodyMotion]) -> Vec<Start> {
+        let spec = &self.groups[group];
+        let start = |(place, (chart, motion)): (usize, (&Chart, &BodyMotion))| match chart {
+            Chart::Fixed => Start::Fixed,
+            Chart::Free(_) => Start::Free { motion: *motion, pull: spec.pull(place, motion.mass) },
+            Chart::Pivot(pivot) => {
+                let mut y = [0.0; 7];
+                chart.encode(&motion.state(), &mut y);
+                let momentum = Vector3::new(y[4], y[5], y[6]);
+                Start::Pivot { inertia: pivot.inertia(motion), orientation: motion.orientation, momentum }
+            }
+            Chart::Planar(_) | Chart::Axle(_) => {
+                // the loads are constant, and the rate without loads is linear in the momenta
+                let zeros = vec![0.0; chart.dimension()];
+                let (mut y, mut slope, mut bend) = (zeros.clone(), zeros.clone(), zeros);
+                chart.encode(&motion.state(), &mut y);
+                let force = motion.mass * spec.pull(place, motion.mass).acceleration;
+                let load = Load { force, torque: Vector3::zeros() };
+                chart.rate(&y, motion, &load, &mut slope);
+                chart.rate_unloaded(&slope, &mut bend);
+                Start::Line { y, slope, bend }
+            }
+        };
+        charts.iter().zip(motions).enumerate().map(start).collect()
+    }
+}
