@@ -2,8 +2,10 @@
 
 #![forbid(unsafe_code)]
 
+pub mod closest;
 pub mod error;
 pub mod math;
+pub mod shape;
 pub mod tolerance;
 
 pub use error::{Error, Result};

@@ -5,8 +5,10 @@
 //! | [`rotation`] | (1)–(8) | elementary rotations, the matrix Ω(ω), the polar factor |
 //! | [`quaternion`] | (25)–(29) | product, rate, matrix and back, exponential map |
 //! | [`pose`] | §1 | where a body frame stands in the world |
+//! | [`double_double`] | – | numbers of twice the digits |
 //! | [`sum`] | – | time and sums with their rounding error kept |
 
+pub mod double_double;
 pub mod pose;
 pub mod quaternion;
 pub mod rotation;

@@ -1,0 +1,5 @@
+//! Shapes.
+
+pub mod convex_polygon;
+pub mod convex_polyhedron;
+pub mod hull;
