@@ -66,14 +66,18 @@ pub(super) fn depth<R: Heights>(
         let Triangle { normal, distance, corners, stuck, .. } = surface.triangles[nearest];
         let (ids, low) = pair.lowest(&-normal, Some(surface.ids[corners[0] as usize]));
 
-        // the nearest triangle and the best direction so far bound the depth
-        if best.as_ref().is_none_or(|b| low > b.lower) {
-            let (simplex, point) = surface.witness(nearest);
-            best = Some(Bounds { simplex, point, normal: -normal, lower: low, upper: -distance });
+        // the nearest triangle and the best direction so far bound the depth; until they meet, the point
+        // is the deepest along that direction
+        let is_better = best.as_ref().is_none_or(|b| low > b.lower);
+        if is_better && -low - distance > gap {
+            let mut simplex = Simplex::empty();
+            simplex.push(ids, pair.difference(ids));
+            let _ = simplex.reduce();
+            best = Some(Bounds { simplex, point: simplex.points[0], normal: -normal, lower: low, upper: -distance });
         }
         if let Some(b) = &mut best {
             b.upper = -distance;
-            if b.upper - b.lower > gap && enough(b) {
+            if -low - distance > gap && enough(b) {
                 break;
             }
         }
