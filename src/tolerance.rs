@@ -19,7 +19,7 @@ pub const COORDINATE_MIN: f64 = 1.0e-30;
 /// Width of a certificate, as a fraction of the pair's size [-]: 36 ε is what the rounding of two
 /// rotations alone may cost. Wider answers are repeated in double-double. Larger: fewer repeats, wider
 /// intervals. Smaller: more repeats.
-pub const CERTIFICATE_WIDTH: f64 = 64.0 * f64::EPSILON;
+pub const CERTIFICATE_WIDTH: f64 = 40.0 * f64::EPSILON;
 
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
 /// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.

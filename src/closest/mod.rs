@@ -28,6 +28,7 @@
 
 mod depth;
 mod pair;
+pub mod planar;
 mod search;
 mod simplex;
 mod vector;
@@ -85,7 +86,7 @@ impl Feature {
 /// When a query may stop.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Accuracy {
-    /// At an interval as narrow as rounding allows: `upper − lower ≤ 64 ε size`, mostly below 16 ε size,
+    /// At an interval as narrow as rounding allows: `upper − lower ≤ 40 ε size`, mostly 10 to 28 ε size,
     /// where the size is both radii plus the distance of the centres.
     #[default]
     Exact,

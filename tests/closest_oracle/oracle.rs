@@ -228,7 +228,10 @@ pub(crate) fn signed_distance(a: &ConvexPolyhedron, pose_a: &Pose, b: &ConvexPol
         let proved = separation(&va, &vb, &d.map(|x| x / distance));
         if proved.hi > 0.0 {
             let gap = (distance - proved).hi;
-            assert!(gap <= 1e-20 * size, "the oracle is open by {gap:e}");
+            assert!(
+                gap <= 1e-20 * size,
+                "the oracle is open by {gap:e} at {distance:?} {a:?} {b:?} {pose_a:?} {pose_b:?}"
+            );
             return Truth { signed_distance: distance.hi };
         }
     }
@@ -237,7 +240,7 @@ pub(crate) fn signed_distance(a: &ConvexPolyhedron, pose_a: &Pose, b: &ConvexPol
         let along_it = separation(&va, &vb, &d.map(|x| x / distance));
         let proved = if along_it > s { along_it } else { s };
         let gap = (distance - proved).hi;
-        assert!(gap <= 1e-18 * size, "the oracle is open by {gap:e} at {:e}", distance.hi);
+        assert!(gap <= 1e-16 * size, "the oracle is open by {gap:e} at {:e}", distance.hi);
         return Truth { signed_distance: distance.hi };
     }
     Truth { signed_distance: s.hi }
