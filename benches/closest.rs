@@ -104,7 +104,7 @@ fn report(
     poses: &[Pose],
     warm: bool,
 ) {
-    let (mut certified, mut steps, mut rungs, mut width) = (0, 0, [0; 3], 0.0f64);
+    let (mut certified, mut steps, mut rungs, mut width) = (0, 0, [0; 4], 0.0f64);
     let mut cache = PairCache::new();
     for pose in poses {
         let cache = if warm { Some(&mut cache) } else { None };
@@ -114,17 +114,19 @@ fn report(
         width = width.max(answer.upper - answer.lower);
         rungs[match answer.rung {
             Rung::Verified => 0,
-            Rung::Searched => 1,
-            Rung::DoubleDouble => 2,
+            Rung::Walked => 1,
+            Rung::Searched => 2,
+            Rung::DoubleDouble => 3,
         }] += 1;
     }
     let n = poses.len() as f64;
     eprintln!(
-        "{regime}/{motion}/{size}: certified {:.2} %, {:.2} steps, verified {:.1} %, double-double {}, widest {width:.1e}",
+        "{regime}/{motion}/{size}: certified {:.2} %, {:.2} steps, verified {:.1} %, walked {:.1} %, double-double {}, widest {width:.1e}",
         100.0 * f64::from(u32::try_from(certified).unwrap()) / n,
         f64::from(steps) / n,
         100.0 * f64::from(rungs[0]) / n,
-        rungs[2],
+        100.0 * f64::from(rungs[1]) / n,
+        rungs[3],
     );
 }
 

@@ -21,6 +21,7 @@
 //! | rung | what is tried |
 //! |---|---|
 //! | [`Rung::Verified`] | the vertices of the last answer, checked by one look around |
+//! | [`Rung::Walked`] | the Lin–Canny walk from the last features, checked the same way |
 //! | [`Rung::Searched`] | search in `f64`: distance by GJK, depth by a growing polytope, supports by climbing |
 //! | [`Rung::DoubleDouble`] | the same in double-double |
 //!
@@ -32,6 +33,7 @@ pub mod planar;
 mod search;
 mod simplex;
 mod vector;
+mod walk;
 
 use crate::error::{Error, Result};
 use crate::math::double_double::{DoubleDouble, Real};
@@ -101,6 +103,8 @@ pub enum Accuracy {
 pub enum Rung {
     /// The cached vertices still were the answer.
     Verified,
+    /// The walk from the cached features.
+    Walked,
     /// The search in `f64`.
     Searched,
     /// The search in double-double.
@@ -201,8 +205,7 @@ pub fn closest_features(
 
     // in f64 first, in double-double where that proves too little
     let pair = Pair::new(a, pose_a, b, pose_b);
-    let bounds = find(&pair, &start[..count], SEARCH_GAP, accuracy, &mut steps);
-    let rung = if steps == 1 { Rung::Verified } else { Rung::Searched };
+    let (bounds, rung) = climb(&pair, &start[..count], accuracy, &mut steps);
     let mut answer = describe(&pair, &bounds, pose_a, accuracy, steps, rung);
     let mut simplex = (bounds.simplex.ids, bounds.simplex.count);
     if !answer.certified {
@@ -234,11 +237,40 @@ fn check(pose: &Pose, field: &'static str) -> Result<()> {
     Ok(())
 }
 
+/// The rungs in `f64`: verify the cached vertices, walk from their features, search.
+#[inline]
+fn climb(pair: &Pair<'_, f64>, start: &[Ids], accuracy: Accuracy, steps: &mut u32) -> (Bounds<f64>, Rung) {
+    if (1..=3).contains(&start.len()) {
+        let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
+        if let Some(bounds) = search::verify(pair, start, gap, steps) {
+            return (bounds, Rung::Verified);
+        }
+        let mut simplex = Simplex::empty();
+        start.iter().for_each(|&ids| simplex.push(ids, Vec3::zero()));
+        let outward = || pair.between;
+        let features = [
+            feature(pair.a, &simplex, 0, || pair.in_axes_of_a(&outward())),
+            feature(pair.b, &simplex, 1, || -pair.in_axes_of_b(&outward())),
+        ];
+        if let Some(carriers) = walk::walk(pair, features, steps) {
+            if let Some(bounds) = search::verify(pair, &carriers.ids[..carriers.count], gap, steps) {
+                return (bounds, Rung::Walked);
+            }
+            return (find(pair, &carriers.ids[..carriers.count], SEARCH_GAP, accuracy, steps), Rung::Searched);
+        }
+    }
+    (find(pair, start, SEARCH_GAP, accuracy, steps), Rung::Searched)
+}
+
+/// The gap at which a query may stop, as a fraction of the size.
+fn gap_of(accuracy: Accuracy, finest: f64) -> f64 {
+    if let Accuracy::Relative(r) = accuracy { r.max(finest) } else { finest }
+}
+
 /// The signed distance by distance search and, where the bodies meet, depth.
 #[inline]
 fn find<R: Heights>(pair: &Pair<'_, R>, start: &[Ids], gap: f64, accuracy: Accuracy, steps: &mut u32) -> Bounds<R> {
-    let fraction = if let Accuracy::Relative(r) = accuracy { r.max(gap) } else { gap };
-    let gap = fraction * pair.size;
+    let gap = gap_of(accuracy, gap) * pair.size;
     let error = R::from(pair.error);
     let only_state = accuracy == Accuracy::YesNo;
     let apart = |found: &Bounds<R>| only_state && found.lower > error;

@@ -14,7 +14,8 @@
 //! ‖δR‖ ≤ 17 u        k = 2/|q|² to 4 u, which scales R − I (norm ≤ 2): 8 u; products and sums of the
 //!                    entries: 9 u in the ∞-norm and so in the 2-norm
 //! |δ(R v)| ≤ 22 u ρ  and 5 u for the three products and two sums of each component
-//! |δ(n·w)| ≤ 28 u (ρ_A + ρ_B) + 10 u |t|   for a unit n, through either body's axes
+//! |δ(n·w)| ≤ 29 u (ρ_A + ρ_B) + 10 u |t|   for a unit n, through either body's axes; of this 1 u ρ for
+//!                    vertices taken about a centre that is not the origin
 //! ```
 //!
 //! so the height of the difference along any direction, and the length of any of its points, are known
@@ -29,12 +30,12 @@ use crate::shape::convex_polyhedron::ConvexPolyhedron;
 pub(super) type Ids = [u32; 2];
 
 /// Bound of rounding in heights and lengths, in units `u` times the radii [-]; see the module.
-const RADII_UNITS: f64 = 28.0;
+const RADII_UNITS: f64 = 29.0;
 /// The same for the distance of the centres [-].
 const CENTERS_UNITS: f64 = 10.0;
 /// Relative rounding in the climbed heights of one body, in units `u` [-]: two dot products and the
-/// direction's own rotation cancel from a comparison; what is left is 2 · 3 u.
-const PLATEAU_UNITS: f64 = 8.0;
+/// direction's own rotation cancel from a comparison; what is left is 2 · (3 + 1) u.
+const PLATEAU_UNITS: f64 = 10.0;
 /// Up to this many vertices all are looked at, which costs no more than climbing.
 const SCAN: usize = 16;
 /// Vertices of equal height that are followed before all are looked at.
@@ -131,13 +132,13 @@ impl<'a, R: Real + Heights> Pair<'a, R> {
     /// A vertex of A about its centre, world axes.
     #[inline]
     pub(super) fn point_a(&self, i: u32) -> Vec3<R> {
-        rotate(&self.rotation_a, &Vec3::new(self.a.vertices_about_center()[i as usize]))
+        rotate(&self.rotation_a, &R::vertex(self.a, i as usize))
     }
 
     /// A vertex of B about its centre, world axes.
     #[inline]
     pub(super) fn point_b(&self, j: u32) -> Vec3<R> {
-        rotate(&self.rotation_b, &Vec3::new(self.b.vertices_about_center()[j as usize]))
+        rotate(&self.rotation_b, &R::vertex(self.b, j as usize))
     }
 
     /// `w(i, j)`: a point of the difference [m].
@@ -169,13 +170,21 @@ impl<'a, R: Real + Heights> Pair<'a, R> {
     }
 }
 
-/// How the farthest vertex is found in either precision.
+/// How vertices are read and the farthest is found in either precision.
 pub(super) trait Heights: Real {
+    /// A vertex about the body's centre, body axes.
+    fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<Self>;
+
     /// A vertex farthest along `d`, body axes, and a bound of `d · v` over all vertices.
     fn farthest(body: &ConvexPolyhedron, d: &Vec3<Self>, from: Option<u32>) -> (u32, Self);
 }
 
 impl Heights for f64 {
+    #[inline]
+    fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<f64> {
+        Vec3(body.vertices_about_center()[k])
+    }
+
     /// Climbing is exact but for rounding: the vertices of a convex body that are at least as high as
     /// a given one hang together along its edges. So if a neighbour is as high as the top to within
     /// rounding, the plateau is followed to its end.
@@ -252,6 +261,12 @@ fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, slack: f64, height: i
 }
 
 impl Heights for DoubleDouble {
+    /// As given, less the centre: without rounding.
+    fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<Self> {
+        let (v, c) = (body.vertices()[k], body.center());
+        Vec3([0, 1, 2].map(|i| Self::sum(v[i], -c[i])))
+    }
+
     /// All vertices are looked at in `f64`, and those near the top in double-double.
     fn farthest(body: &ConvexPolyhedron, d: &Vec3<Self>, _from: Option<u32>) -> (u32, Self) {
         let vertices = body.vertices_about_center();
@@ -260,8 +275,8 @@ impl Heights for DoubleDouble {
         let top = vertices.iter().map(rough_height).fold(f64::MIN, f64::max);
         let floor = top - 16.0 * f64::EPSILON * body.radius() * rough.norm();
         let mut best: Option<(u32, Self)> = None;
-        for (k, v) in (0..).zip(vertices).filter(|(_, v)| rough_height(v) >= floor) {
-            let h = Vec3::new(*v).dot(d);
+        for (k, _) in (0..).zip(vertices).filter(|(_, v)| rough_height(v) >= floor) {
+            let h = Self::vertex(body, k as usize).dot(d);
             if best.is_none_or(|b| h > b.1) {
                 best = Some((k, h));
             }

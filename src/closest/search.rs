@@ -90,3 +90,23 @@ pub(super) fn search<R: Heights>(
     }
     best.map_or(Found::Inside(simplex), Found::Apart)
 }
+
+/// Bounds from the given points of the difference, if one look around shows that they still carry the
+/// closest point.
+#[inline]
+pub(super) fn verify<R: Heights>(pair: &Pair<'_, R>, start: &[Ids], gap: f64, steps: &mut u32) -> Option<Bounds<R>> {
+    *steps += 1;
+    let mut simplex = Simplex::empty();
+    for &ids in start {
+        simplex.push(ids, pair.difference(ids));
+    }
+    let Closest::At { point, normal } = simplex.reduce() else { return None };
+    let (upper, length) = (point.norm(), normal.norm());
+    if upper <= R::from(pair.error) || length == R::from(0.0) {
+        return None;
+    }
+    let (_, height) = pair.lowest(&normal, Some(simplex.ids[0]));
+    let one_over = R::from(1.0) / length;
+    let lower = height * one_over;
+    (upper - lower <= R::from(gap)).then(|| Bounds { simplex, point, normal: normal.scaled(one_over), lower, upper })
+}

@@ -9,7 +9,7 @@
 //! the outside; neighbours share the ray between them.
 
 use crate::error::{Error, Result};
-use crate::math::double_double::{DoubleDouble, Real};
+use crate::math::double_double::DoubleDouble;
 use crate::shape::hull::planar_hull;
 use crate::tolerance::{COORDINATE_MAX, COORDINATE_MIN};
 

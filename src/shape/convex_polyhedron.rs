@@ -111,10 +111,10 @@ impl ConvexPolyhedron {
         }
 
         // a coordinate 1e-40 times smaller than the body is below every rounding, and would underflow
-        let about_center: Vec<[f64; 3]> =
-            points.iter().map(|p| sub(p, &center).map(|x| if x.abs() < 1e-40 * span { 0.0 } else { x })).collect();
-        let hull = hull::hull(&about_center);
-        let vertices: Vec<[f64; 3]> = hull.vertices.iter().map(|&i| about_center[i]).collect();
+        let given: Vec<[f64; 3]> =
+            points.iter().map(|p| p.map(|x| if x.abs() < 1e-40 * span { 0.0 } else { x })).collect();
+        let hull = hull::hull(&given);
+        let vertices: Vec<[f64; 3]> = hull.vertices.iter().map(|&i| sub(&given[i], &center)).collect();
         let radius = vertices.iter().map(norm).fold(0.0, f64::max) * (1.0 + 4.0 * f64::EPSILON);
 
         // triangles and rings in terms of the kept vertices
@@ -137,7 +137,7 @@ impl ConvexPolyhedron {
             rank: hull.rank,
             center,
             radius,
-            points: hull.vertices.iter().map(|&i| points[i]).collect(),
+            points: hull.vertices.iter().map(|&i| given[i]).collect(),
             sources: hull.vertices.iter().map(|&i| u32::try_from(i).unwrap_or(NONE)).collect(),
             vertices,
             ring_start: Vec::new(),
@@ -205,7 +205,7 @@ impl ConvexPolyhedron {
         self.radius
     }
 
-    /// The vertices as they were given [m, body axes].
+    /// The vertices as they were given [m, body axes]; coordinates below 1e-40 of the body's size are 0.
     pub fn vertices(&self) -> &[[f64; 3]] {
         &self.points
     }
