@@ -16,6 +16,7 @@
 //! from the origin, their solid angles are positive and sum to a whole number of spheres: it goes
 //! around the origin.
 
+use super::PairCache;
 use super::pair::{Heights, Ids, Pair};
 use super::search::Bounds;
 use super::simplex::{Closest, Simplex, triangle_normal};
@@ -26,6 +27,7 @@ use crate::math::double_double::Real;
 /// given with the bounds that are proved.
 const POINTS: usize = 1024;
 
+#[derive(Debug, Clone, Copy)]
 struct Triangle<R> {
     corners: [u32; 3],
     across: [u32; 3],
@@ -41,30 +43,87 @@ struct Surface<R> {
     ids: Vec<Ids>,
     points: Vec<Vec3<R>>,
     triangles: Vec<Triangle<R>>,
+    /// Scratch of an expansion.
+    patch: Vec<u32>,
+    rim: Vec<(u32, u32, u32)>,
 }
+
+/// The pairs of vertices that an inner polytope was grown from, the most useful ones.
+pub(super) type Core = ([Ids; PairCache::CAPACITY], usize);
 
 /// The depth from a simplex that holds the origin, or touches it. The bounds are those of the negative
 /// depth; the upper one holds where it is below the pair's error, for then the surface encloses the
-/// origin. The normal points from A to B, against the way out.
+/// origin. The normal points from A to B, against the way out. Along with them the vertices to start
+/// the next query of the same pair from.
 pub(super) fn depth<R: Heights>(
     pair: &Pair<'_, R>,
     start: &Simplex<R>,
     gap: f64,
     steps: &mut u32,
     enough: impl Fn(&Bounds<R>) -> bool,
-) -> Bounds<R> {
+) -> (Bounds<R>, Core) {
     let gap = R::from(gap);
     let corners = match spanning(pair, start, gap) {
         Ok(corners) => corners,
-        Err(flat) => return flat,
+        Err(flat) => return (flat, ([[0; 2]; PairCache::CAPACITY], 0)),
     };
     let mut surface = Surface::tetrahedron(&corners);
+    let bounds = grow(pair, &mut surface, gap, steps, enough);
+    let bounds = bounds.unwrap_or_else(|| flat_answer(start, pair, Vec3::new([0.0, 0.0, 1.0])));
+    (bounds, surface.core())
+}
+
+/// The depth from the vertices of an earlier answer; none if the bodies are apart by now or the vertices
+/// do not span space.
+pub(super) fn depth_again(
+    pair: &Pair<'_, f64>,
+    core: &[Ids],
+    gap: f64,
+    steps: &mut u32,
+    enough: impl Fn(&Bounds<f64>) -> bool,
+) -> Option<(Bounds<f64>, Core)> {
+    let (first, rest) = core.split_at_checked(4)?;
+    let mut corners = Simplex::empty();
+    for &ids in first {
+        corners.push(ids, pair.difference(ids));
+    }
+    let p = &corners.points;
+    let volume = triangle_normal(&p[0], &p[1], &p[2]).dot(&(p[3] - p[0])).abs();
+    if volume <= SPANNING * pair.size * pair.size * pair.size {
+        return None;
+    }
+    let mut surface = Surface::tetrahedron(&corners);
+    for &ids in rest {
+        if !surface.take_in(ids, pair.difference(ids)) {
+            return None;
+        }
+    }
+    let bounds = grow(pair, &mut surface, gap, steps, enough)?;
+    Some((bounds, surface.core()))
+}
+
+/// Smallest volume of a remembered tetrahedron to start from, as a fraction of the size cubed [-]: the
+/// corners' rounding must not turn it inside out. Smaller ones are found anew.
+const SPANNING: f64 = 1e-9;
+
+/// Grows the surface until its nearest triangle and a direction bound the depth to within the gap; none
+/// if the bodies turn out to be apart.
+fn grow<R: Heights>(
+    pair: &Pair<'_, R>,
+    surface: &mut Surface<R>,
+    gap: R,
+    steps: &mut u32,
+    enough: impl Fn(&Bounds<R>) -> bool,
+) -> Option<Bounds<R>> {
     let mut best: Option<Bounds<R>> = None;
     while surface.points.len() < POINTS {
         *steps += 1;
         let Some(nearest) = surface.nearest() else { break };
         let Triangle { normal, distance, corners, stuck, .. } = surface.triangles[nearest];
         let (ids, low) = pair.lowest(&-normal, Some(surface.ids[corners[0] as usize]));
+        if low > R::from(pair.error) {
+            return None;
+        }
 
         // the nearest triangle and the best direction so far bound the depth; until they meet, the point
         // is the deepest along that direction
@@ -83,7 +142,7 @@ pub(super) fn depth<R: Heights>(
         }
         if -low - distance <= gap {
             let (simplex, point) = surface.nearest_witness(nearest, gap);
-            return Bounds { simplex, point, normal: -normal, lower: low, upper: -distance };
+            return Some(Bounds { simplex, point, normal: -normal, lower: low, upper: -distance });
         }
 
         if !surface.ids.contains(&ids) {
@@ -96,7 +155,7 @@ pub(super) fn depth<R: Heights>(
             surface.measure_closely(nearest);
         }
     }
-    best.unwrap_or_else(|| flat_answer(start, pair, Vec3::new([0.0, 0.0, 1.0])))
+    best
 }
 
 /// Four points of the difference that span space, from the given ones; or the answer, where a direction
@@ -172,8 +231,15 @@ fn flat_answer<R: Heights>(simplex: &Simplex<R>, pair: &Pair<'_, R>, n: Vec3<R>)
 
 impl<R: Heights> Surface<R> {
     fn tetrahedron(corners: &Simplex<R>) -> Self {
-        let mut surface =
-            Self { ids: corners.ids.to_vec(), points: corners.points.to_vec(), triangles: Vec::with_capacity(64) };
+        let mut surface = Self {
+            ids: Vec::with_capacity(32),
+            points: Vec::with_capacity(32),
+            triangles: Vec::with_capacity(128),
+            patch: Vec::with_capacity(16),
+            rim: Vec::with_capacity(16),
+        };
+        surface.ids.extend(corners.ids);
+        surface.points.extend(corners.points);
 
         // counterclockwise seen from outside
         let p = &surface.points;
@@ -203,6 +269,20 @@ impl<R: Heights> Surface<R> {
         let normal = n.scaled(R::from(1.0) / length);
         let distance = least(normal.dot(&a), normal.dot(&b), normal.dot(&c));
         Triangle { corners, across, normal, distance, stuck: false, alive: true }
+    }
+
+    /// The first four points, which span space, and the last of the others, which are nearest to the way
+    /// out.
+    fn core(&self) -> Core {
+        let mut core = [[0; 2]; PairCache::CAPACITY];
+        let first = self.ids.len().min(4);
+        let last = self.ids.len().saturating_sub(PairCache::CAPACITY - 4).max(first);
+        let mut count = 0;
+        for &ids in self.ids[..first].iter().chain(&self.ids[last..]) {
+            core[count] = ids;
+            count += 1;
+        }
+        (core, count)
     }
 
     /// The triangle nearest to the origin.
@@ -292,22 +372,22 @@ impl<R: Heights> Surface<R> {
         self.points.push(point);
 
         // the visible patch and its rim
-        let mut patch = vec![first];
+        let (mut patch, mut rim) = (std::mem::take(&mut self.patch), std::mem::take(&mut self.rim));
+        patch.clear();
+        rim.clear();
+        patch.push(u32::try_from(first).unwrap_or(u32::MAX));
         self.triangles[first].alive = false;
-        let mut rim: Vec<(u32, u32, u32)> = Vec::with_capacity(16);
         let mut k = 0;
         while k < patch.len() {
-            let (corners, across) = (self.triangles[patch[k]].corners, self.triangles[patch[k]].across);
+            let Triangle { corners, across, .. } = self.triangles[patch[k] as usize];
             for side in 0..3 {
                 let beyond = across[side] as usize;
-                let t = &self.triangles[beyond];
-                if !t.alive {
+                if !self.triangles[beyond].alive {
                     continue;
                 }
-                let [a, b, c] = t.corners.map(|k| t.normal.dot(&(point - self.points[k as usize])));
-                if least(a, b, c) > R::from(0.0) {
+                if self.sees(&point, beyond) {
                     self.triangles[beyond].alive = false;
-                    patch.push(beyond);
+                    patch.push(across[side]);
                 } else {
                     rim.push((corners[side], corners[(side + 1) % 3], across[side]));
                 }
@@ -315,25 +395,13 @@ impl<R: Heights> Surface<R> {
             k += 1;
         }
 
-        // the rim is one closed loop, or the surface would tear; edges inside the patch are not rim
+        // the fan: its triangles follow one another around the rim, which is one loop or is refused
         rim.retain(|&(_, _, beyond)| self.triangles[beyond as usize].alive);
-        rim.sort_unstable();
-        let base = u32::try_from(self.triangles.len()).unwrap_or(u32::MAX);
-        let count = rim.len();
-        if rim.windows(2).any(|r| r[0].0 == r[1].0) {
-            return false;
-        }
-        let position = |from: u32| rim.binary_search_by(|r| r.0.cmp(&from)).ok();
-        let mut previous = vec![u32::MAX; count];
-        let mut following = vec![u32::MAX; count];
-        for (k, r) in rim.iter().enumerate() {
-            let Some(after) = position(r.1) else { return false };
-            following[k] = base + u32::try_from(after).unwrap_or(0);
-            previous[after] = base + u32::try_from(k).unwrap_or(0);
-        }
-        for (k, &(from, to, beyond)) in rim.iter().enumerate() {
-            let triangle = self.triangle([from, to, apex], [beyond, following[k], previous[k]]);
+        let base = self.triangles.len();
+        let mut whole = true;
+        for &(from, to, beyond) in &rim {
             let me = u32::try_from(self.triangles.len()).unwrap_or(u32::MAX);
+            let triangle = self.triangle([from, to, apex], [beyond, u32::MAX, u32::MAX]);
             let other = &mut self.triangles[beyond as usize];
             for side in 0..3 {
                 if other.corners[side] == to && other.corners[(side + 1) % 3] == from {
@@ -342,7 +410,34 @@ impl<R: Heights> Surface<R> {
             }
             self.triangles.push(triangle);
         }
-        true
+        for (k, &(_, to, _)) in rim.iter().enumerate() {
+            match rim.iter().position(|r| r.0 == to) {
+                Some(after) if self.triangles[base + after].across[2] == u32::MAX => {
+                    self.triangles[base + k].across[1] = u32::try_from(base + after).unwrap_or(u32::MAX);
+                    self.triangles[base + after].across[2] = u32::try_from(base + k).unwrap_or(u32::MAX);
+                }
+                _ => whole = false,
+            }
+        }
+        (self.patch, self.rim) = (patch, rim);
+        whole
+    }
+
+    /// Whether a point is strictly above a triangle.
+    #[inline]
+    fn sees(&self, point: &Vec3<R>, triangle: usize) -> bool {
+        let t = &self.triangles[triangle];
+        let height = t.normal.dot(point);
+        t.corners.iter().all(|&k| height > t.normal.dot(&self.points[k as usize]))
+    }
+
+    /// Takes in a point of the difference, if it is outside; false if rounding tore the rim.
+    fn take_in(&mut self, ids: Ids, point: Vec3<R>) -> bool {
+        if self.ids.contains(&ids) {
+            return true;
+        }
+        let seen = (0..self.triangles.len()).find(|&k| self.triangles[k].alive && self.sees(&point, k));
+        seen.is_none_or(|first| self.expand(first, ids, point))
     }
 }
 

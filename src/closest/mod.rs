@@ -40,6 +40,7 @@ use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Vector3};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
 use crate::tolerance::{CERTIFICATE_WIDTH, COORDINATE_MAX, SEARCH_GAP};
+use depth::Core;
 use pair::{Heights, Ids, Pair};
 use search::{Bounds, Found};
 use simplex::Simplex;
@@ -146,11 +147,12 @@ pub struct ClosestFeatures {
 pub struct PairCache {
     pairs: [[u16; 2]; PairCache::CAPACITY],
     count: u8,
+    inside: bool,
 }
 
 impl PairCache {
     /// How many pairs of vertices are remembered: 4 of a simplex and what encloses a shallow overlap.
-    const CAPACITY: usize = 12;
+    pub(crate) const CAPACITY: usize = 14;
 
     /// An empty cache.
     pub fn new() -> Self {
@@ -172,8 +174,8 @@ impl PairCache {
     }
 
     /// Remembers pairs; bodies of more than 65,536 vertices are not remembered.
-    fn store(&mut self, ids: &[Ids]) {
-        self.count = 0;
+    fn store(&mut self, ids: &[Ids], inside: bool) {
+        (self.count, self.inside) = (0, inside);
         for &[i, j] in ids.iter().take(Self::CAPACITY) {
             let (Ok(i), Ok(j)) = (u16::try_from(i), u16::try_from(j)) else { continue };
             self.pairs[usize::from(self.count)] = [i, j];
@@ -204,21 +206,23 @@ pub fn closest_features(
     let mut steps = 0;
 
     // in f64 first, in double-double where that proves too little
+    let inside = cache.as_ref().is_some_and(|c| c.inside);
     let pair = Pair::new(a, pose_a, b, pose_b);
-    let (bounds, rung) = climb(&pair, &start[..count], accuracy, &mut steps);
-    let mut answer = describe(&pair, &bounds, pose_a, accuracy, steps, rung);
-    let mut simplex = (bounds.simplex.ids, bounds.simplex.count);
+    let mut found = climb(&pair, &start[..count], inside, accuracy, &mut steps);
+    let mut answer = describe(&pair, &found.bounds, pose_a, accuracy, steps, found.rung);
     if !answer.certified {
         let pair = Pair::precise(a, pose_a, b, pose_b);
-        let bounds = find(&pair, &[], SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT, accuracy, &mut steps);
-        let precise = describe(&pair, &bounds, pose_a, accuracy, steps, Rung::DoubleDouble);
-        if precise.upper - precise.lower <= answer.upper - answer.lower {
-            answer = precise;
-            simplex = (bounds.simplex.ids, bounds.simplex.count);
+        let precise = find(&pair, &[], SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT, accuracy, &mut steps);
+        let precise_answer = describe(&pair, &precise.bounds, pose_a, accuracy, steps, Rung::DoubleDouble);
+        if precise_answer.upper - precise_answer.lower <= answer.upper - answer.lower {
+            (answer, found.core) = (precise_answer, precise.core);
         }
     }
     if let Some(cache) = cache {
-        cache.store(&simplex.0[..simplex.1]);
+        match found.core {
+            Some((ids, count)) if count >= 4 => cache.store(&ids[..count], true),
+            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count], false),
+        }
     }
 
     debug_assert!(answer.lower <= answer.signed_distance && answer.signed_distance <= answer.upper, "{answer:?}");
@@ -237,29 +241,47 @@ fn check(pose: &Pose, field: &'static str) -> Result<()> {
     Ok(())
 }
 
+/// What a rung found: bounds, and of an overlap the vertices that prove it.
+struct Outcome<R> {
+    bounds: Bounds<R>,
+    core: Option<Core>,
+    rung: Rung,
+}
+
 /// The rungs in `f64`: verify the cached vertices, walk from their features, search.
 #[inline]
-fn climb(pair: &Pair<'_, f64>, start: &[Ids], accuracy: Accuracy, steps: &mut u32) -> (Bounds<f64>, Rung) {
-    if (1..=3).contains(&start.len()) {
-        let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
+fn climb(pair: &Pair<'_, f64>, start: &[Ids], inside: bool, accuracy: Accuracy, steps: &mut u32) -> Outcome<f64> {
+    let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
+    if inside {
+        if let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy)) {
+            let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
+            return Outcome { bounds, core: Some(core), rung };
+        }
+    } else if (1..=3).contains(&start.len()) {
         if let Some(bounds) = search::verify(pair, start, gap, steps) {
-            return (bounds, Rung::Verified);
+            return Outcome { bounds, core: None, rung: Rung::Verified };
         }
         let mut simplex = Simplex::empty();
         start.iter().for_each(|&ids| simplex.push(ids, Vec3::zero()));
-        let outward = || pair.between;
         let features = [
-            feature(pair.a, &simplex, 0, || pair.in_axes_of_a(&outward())),
-            feature(pair.b, &simplex, 1, || -pair.in_axes_of_b(&outward())),
+            feature(pair.a, &simplex, 0, || pair.in_axes_of_a(&pair.between)),
+            feature(pair.b, &simplex, 1, || -pair.in_axes_of_b(&pair.between)),
         ];
         if let Some(carriers) = walk::walk(pair, features, steps) {
-            if let Some(bounds) = search::verify(pair, &carriers.ids[..carriers.count], gap, steps) {
-                return (bounds, Rung::Walked);
+            let carriers = &carriers.ids[..carriers.count];
+            if let Some(bounds) = search::verify(pair, carriers, gap, steps) {
+                return Outcome { bounds, core: None, rung: Rung::Walked };
             }
-            return (find(pair, &carriers.ids[..carriers.count], SEARCH_GAP, accuracy, steps), Rung::Searched);
+            return find(pair, carriers, SEARCH_GAP, accuracy, steps);
         }
     }
-    (find(pair, start, SEARCH_GAP, accuracy, steps), Rung::Searched)
+    find(pair, start, SEARCH_GAP, accuracy, steps)
+}
+
+/// Whether an overlap is all that was asked for, and proved.
+fn is_known_inside<R: Heights>(pair: &Pair<'_, R>, accuracy: Accuracy) -> impl Fn(&Bounds<R>) -> bool {
+    let (only_state, error) = (accuracy == Accuracy::YesNo, R::from(pair.error));
+    move |found| only_state && (found.upper < -error || found.lower > error)
 }
 
 /// The gap at which a query may stop, as a fraction of the size.
@@ -268,17 +290,17 @@ fn gap_of(accuracy: Accuracy, finest: f64) -> f64 {
 }
 
 /// The signed distance by distance search and, where the bodies meet, depth.
-#[inline]
-fn find<R: Heights>(pair: &Pair<'_, R>, start: &[Ids], gap: f64, accuracy: Accuracy, steps: &mut u32) -> Bounds<R> {
+fn find<R: Heights>(pair: &Pair<'_, R>, start: &[Ids], gap: f64, accuracy: Accuracy, steps: &mut u32) -> Outcome<R> {
     let gap = gap_of(accuracy, gap) * pair.size;
-    let error = R::from(pair.error);
-    let only_state = accuracy == Accuracy::YesNo;
-    let apart = |found: &Bounds<R>| only_state && found.lower > error;
-    let inside = |found: &Bounds<R>| only_state && (found.upper < -error || found.lower > error);
-    match search::search(pair, start, gap, steps, apart) {
-        Found::Apart(bounds) => bounds,
-        Found::Inside(simplex) => depth::depth(pair, &simplex, gap, steps, inside),
-    }
+    let (only_state, error) = (accuracy == Accuracy::YesNo, R::from(pair.error));
+    let (bounds, core) = match search::search(pair, start, gap, steps, |found| only_state && found.lower > error) {
+        Found::Apart(bounds) => (bounds, None),
+        Found::Inside(simplex) => {
+            let (bounds, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
+            (bounds, Some(core))
+        }
+    };
+    Outcome { bounds, core, rung: Rung::Searched }
 }
 
 /// The answer in the world, with its interval.
@@ -376,4 +398,14 @@ fn feature<R: Real>(
         }
     }
     best.map_or(Feature::Vertex(distinct[0]), |b| Feature::Face(b.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cache_is_at_most_64_bytes() {
+        assert!(size_of::<PairCache>() <= 64, "{}", size_of::<PairCache>());
+    }
 }

@@ -191,34 +191,24 @@ impl Heights for f64 {
     #[inline]
     fn farthest(body: &ConvexPolyhedron, d: &Vec3<f64>, from: Option<u32>) -> (u32, f64) {
         let vertices = body.vertices_about_center();
-        let height = |k: u32| {
-            let v = &vertices[k as usize];
-            v[0] * d.0[0] + v[1] * d.0[1] + v[2] * d.0[2]
-        };
+        let height = |v: &[f64; 3]| v[0] * d.0[0] + v[1] * d.0[1] + v[2] * d.0[2];
         if vertices.len() <= SCAN {
-            let mut top = (0, height(0));
-            for k in 1..u32::try_from(vertices.len()).unwrap_or(0) {
-                let h = height(k);
-                if h > top.1 {
-                    top = (k, h);
-                }
-            }
-            return top;
+            return highest(vertices, height);
         }
 
         // uphill, remembering the highest neighbour of the top
         let mut at = from.unwrap_or_else(|| u32::try_from(body.seed_for(&d.0)).unwrap_or(0));
-        let mut top = height(at);
+        let mut top = height(&vertices[at as usize]);
         let mut runner_up;
         loop {
             let mut best = at;
             runner_up = f64::MIN;
-            for &k in body.ring(at as usize) {
-                let h = height(k);
+            for (k, v) in body.ring_points(at as usize) {
+                let h = height(v);
                 if h > top {
                     (top, best) = (h, k);
                 }
-                runner_up = runner_up.max(h);
+                runner_up = if h > runner_up { h } else { runner_up };
             }
             if best == at {
                 break;
@@ -232,15 +222,34 @@ impl Heights for f64 {
     }
 }
 
+/// The highest of all vertices.
+#[inline]
+fn highest(vertices: &[[f64; 3]], height: impl Fn(&[f64; 3]) -> f64) -> (u32, f64) {
+    let mut top = (0, f64::MIN);
+    for (k, v) in (0..).zip(vertices) {
+        let h = height(v);
+        if h > top.1 {
+            top = (k, h);
+        }
+    }
+    top
+}
+
 /// The highest of the vertices that hang together with the top at heights within `slack` of it.
-fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, slack: f64, height: impl Fn(u32) -> f64) -> (u32, f64) {
+fn plateau_top(
+    body: &ConvexPolyhedron,
+    at: u32,
+    top: f64,
+    slack: f64,
+    height: impl Fn(&[f64; 3]) -> f64,
+) -> (u32, f64) {
     let mut seen = [at; PLATEAU];
     let (mut count, mut next) = (1, 0);
     let mut best = (at, top);
     let floor = top - slack;
     while next < count {
-        for &k in body.ring(seen[next] as usize) {
-            let h = height(k);
+        for (k, v) in body.ring_points(seen[next] as usize) {
+            let h = height(v);
             if h < floor || seen[..count].contains(&k) {
                 continue;
             }
@@ -249,8 +258,7 @@ fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, slack: f64, height: i
             }
             if count == PLATEAU {
                 // a large flat face: look at all
-                let all = 0..u32::try_from(body.vertices().len()).unwrap_or(0);
-                return all.map(|k| (k, height(k))).fold(best, |best, x| if x.1 > best.1 { x } else { best });
+                return highest(body.vertices_about_center(), height);
             }
             seen[count] = k;
             count += 1;

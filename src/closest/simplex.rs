@@ -47,10 +47,12 @@ impl<R: Real> Simplex<R> {
     /// Keeps the listed points, with these weights.
     #[inline]
     fn keep<const N: usize>(&mut self, which: [usize; N], weights: [R; N]) {
-        let (ids, points) = (self.ids, self.points);
+        // the indices rise, so nothing is overwritten before it is read
         for k in 0..N {
-            self.ids[k] = ids[which[k]];
-            self.points[k] = points[which[k]];
+            if which[k] != k {
+                self.ids[k] = self.ids[which[k]];
+                self.points[k] = self.points[which[k]];
+            }
             self.weights[k] = weights[k];
         }
         self.count = N;

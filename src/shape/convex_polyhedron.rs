@@ -36,6 +36,7 @@ pub struct ConvexPolyhedron {
     sources: Vec<u32>,
     ring_start: Vec<u32>,
     ring: Vec<u32>,
+    ring_points: Vec<[f64; 3]>,
     faces: Vec<Face>,
     half_edges: Vec<HalfEdge>,
     edges: Vec<Edge>,
@@ -142,6 +143,7 @@ impl ConvexPolyhedron {
             vertices,
             ring_start: Vec::new(),
             ring: Vec::new(),
+            ring_points: Vec::new(),
             faces: Vec::new(),
             half_edges: Vec::new(),
             edges: Vec::new(),
@@ -226,6 +228,13 @@ impl ConvexPolyhedron {
         &self.ring[self.ring_start[vertex] as usize..self.ring_start[vertex + 1] as usize]
     }
 
+    /// The neighbours of a vertex with their coordinates about the centre, side by side in memory.
+    #[inline]
+    pub(crate) fn ring_points(&self, vertex: usize) -> impl Iterator<Item = (u32, &[f64; 3])> {
+        let range = self.ring_start[vertex] as usize..self.ring_start[vertex + 1] as usize;
+        self.ring[range.clone()].iter().copied().zip(&self.ring_points[range])
+    }
+
     /// The faces.
     pub fn faces(&self) -> &[Face] {
         &self.faces
@@ -281,8 +290,8 @@ impl ConvexPolyhedron {
         let mut height = dot(&self.vertices[at], direction);
         loop {
             let mut best = at;
-            for &k in self.ring(at) {
-                let h = dot(&self.vertices[k as usize], direction);
+            for (k, v) in self.ring_points(at) {
+                let h = dot(v, direction);
                 if h > height {
                     (height, best) = (h, k as usize);
                 }
@@ -327,6 +336,7 @@ impl ConvexPolyhedron {
         pairs.sort_unstable();
         pairs.dedup();
         (self.ring_start, self.ring) = grouped(count, &pairs);
+        self.ring_points = self.ring.iter().map(|&k| self.vertices[k as usize]).collect();
 
         // half-edges, the twins next to each other
         let mut half_edge_of: BTreeMap<(u32, u32), u32> = BTreeMap::new();
