@@ -112,6 +112,40 @@ fn run(pairs: usize) {
     assert!(failed.is_empty(), "{failed:?}");
 }
 
+/// parry's answers beside the oracle's: where both queries agree with it they are a second opinion, and
+/// where parry differs by more than 1e-9 of the size the oracle, which proves itself, says who is right.
+#[test]
+fn parry_agrees_or_is_wrong() {
+    println!("family            pairs  distance off  contact off  contact none");
+    for &(name, make) in FAMILIES {
+        let mut random = families::Random::new(name);
+        let (mut distance_off, mut contact_off, mut none) = (0, 0, 0);
+        for _ in 0..40 {
+            let Case { a, pose_a, b, pose_b } = make(&mut random);
+            let Some(theirs) = parry::query(&a, &pose_a, &b, &pose_b) else { continue };
+            let truth = oracle::signed_distance(&a, &pose_a, &b, &pose_b).signed_distance;
+            let ours = closest_features(&a, &pose_a, &b, &pose_b, None, Accuracy::Exact).unwrap();
+            let size = size(&a, &pose_a, &b, &pose_b);
+            let off = |x: f64, y: f64| (x - y).abs() > 1e-9 * size;
+
+            // whoever disagrees with us disagrees with the proof
+            assert!(!off(ours.signed_distance, truth), "{name}: {ours:?}");
+            distance_off += usize::from(off(theirs.distance, truth.max(0.0)));
+            match theirs.contact {
+                Some(d) => contact_off += usize::from(off(d, truth)),
+                None => none += 1,
+            }
+            if name == "random_sep" {
+                assert!(
+                    (theirs.distance - ours.signed_distance.max(0.0)).abs() <= 1e-12 * size,
+                    "second opinion: {theirs:?} {ours:?}"
+                );
+            }
+        }
+        println!("{name:16} {:6} {distance_off:13} {contact_off:12} {none:13}", 40);
+    }
+}
+
 #[test]
 fn every_family_is_right() {
     run(40);

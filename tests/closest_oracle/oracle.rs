@@ -93,7 +93,7 @@ fn separation(a: &[V], b: &[V], n: &V) -> Dd {
 const ZERO: f64 = 1e-54;
 
 /// The largest separation over every candidate direction.
-fn deepest(a: &[V], b: &[V], size: f64) -> Dd {
+fn deepest(a: &[V], b: &[V]) -> Dd {
     let mut best: Option<Dd> = None;
     let mut try_direction = |n: V, scale: Dd| {
         let square = dot(&n, &n);
@@ -119,7 +119,7 @@ fn deepest(a: &[V], b: &[V], size: f64) -> Dd {
             try_direction(cross(&u, &v), dot(&u, &u) * dot(&v, &v));
         }
     }
-    best.unwrap_or(dd(-size))
+    best.unwrap_or(dd(0.0)) // all on one line: any direction off it separates
 }
 
 /// Closest vector from `a0 + s u` to `b0 + t v` with s, t in [0, 1], if both are inside or at an end.
@@ -236,7 +236,7 @@ pub(crate) fn signed_distance(a: &ConvexPolyhedron, pose_a: &Pose, b: &ConvexPol
             return Truth { signed_distance: distance.hi };
         }
     }
-    let s = deepest(&va, &vb, size);
+    let s = deepest(&va, &vb);
     if s.hi > 0.0 {
         let along_it = separation(&va, &vb, &d.map(|x| x / distance));
         let proved = if along_it > s { along_it } else { s };
