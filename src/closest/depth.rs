@@ -83,10 +83,7 @@ pub(super) fn depth_again(
     enough: impl Fn(&Bounds<f64>) -> bool,
 ) -> Option<(Bounds<f64>, Core)> {
     let (first, rest) = core.split_at_checked(4)?;
-    let mut corners = Simplex::empty();
-    for &ids in first {
-        corners.push(ids, pair.difference(ids));
-    }
+    let corners = pair.simplex(first);
     let p = &corners.points;
     let volume = triangle_normal(&p[0], &p[1], &p[2]).dot(&(p[3] - p[0])).abs();
     if volume <= SPANNING * pair.size * pair.size * pair.size {
@@ -101,6 +98,10 @@ pub(super) fn depth_again(
     let bounds = grow(pair, &mut surface, gap, steps, enough)?;
     Some((bounds, surface.core()))
 }
+
+/// Points are remembered that have a triangle within this many depths [-]. Larger: more points to take in
+/// again each time; smaller: more to find.
+const CORE_REACH: f64 = 1.1;
 
 /// Smallest volume of a remembered tetrahedron to start from, as a fraction of the size cubed [-]: the
 /// corners' rounding must not turn it inside out. Smaller ones are found anew.
@@ -271,17 +272,26 @@ impl<R: Heights> Surface<R> {
         Triangle { corners, across, normal, distance, stuck: false, alive: true }
     }
 
-    /// The first four points, which span space, and the last of the others, which are nearest to the way
-    /// out.
+    /// The first four points, which span space, and those of the others that have a triangle near the
+    /// way out: what is farther is soon found again.
     fn core(&self) -> Core {
         let mut core = [[0; 2]; PairCache::CAPACITY];
         let first = self.ids.len().min(4);
-        let last = self.ids.len().saturating_sub(PairCache::CAPACITY - 4).max(first);
-        let mut count = 0;
-        for &ids in self.ids[..first].iter().chain(&self.ids[last..]) {
-            core[count] = ids;
-            count += 1;
+        core[..first].copy_from_slice(&self.ids[..first]);
+        let mut count = first;
+        let Some(nearest) = self.nearest() else { return (core, count) };
+        let limit = self.triangles[nearest].distance * R::from(CORE_REACH);
+        let mut near = 0u128;
+        for t in self.triangles.iter().filter(|t| t.alive && t.distance <= limit) {
+            t.corners.iter().filter(|&&k| k < u128::BITS).for_each(|&k| near |= 1 << k);
         }
+        for k in (first..self.ids.len().min(u128::BITS as usize)).rev() {
+            if count < PairCache::CAPACITY && near >> k & 1 == 1 {
+                core[count] = self.ids[k];
+                count += 1;
+            }
+        }
+        core[first..count].reverse();
         (core, count)
     }
 

@@ -334,8 +334,13 @@ fn describe<R: Heights>(
 
     // both points, joined by the same vector that the distance is taken from
     let simplex = &found.simplex;
-    let weighted = |k: usize| pair.point_a(simplex.ids[k][0]).scaled(simplex.weights[k]);
-    let on_a = (1..simplex.count).fold(weighted(0), |sum, k| sum + weighted(k));
+    let first = simplex.ids[0][0];
+    let on_a = if simplex.ids[..simplex.count].iter().all(|ids| ids[0] == first) {
+        pair.point_a(first)
+    } else {
+        let weighted = |k: usize| pair.point_a(simplex.ids[k][0]).scaled(simplex.weights[k]);
+        (1..simplex.count).fold(weighted(0), |sum, k| sum + weighted(k))
+    };
     let center = if pair.a.center() == [0.0; 3] { pose_a.position } else { pose_a.point(&pair.a.center().into()) };
     let point_a = center + on_a.to_vector();
     let point_b = point_a + found.point.to_vector();
@@ -386,18 +391,20 @@ fn feature<R: Real>(
     {
         return Feature::Edge(u32::try_from(e).unwrap_or(u32::MAX));
     }
-    let d: Vec3<f64> = Vec3(outward().to_f64());
-    let mut best: Option<((bool, f64), u32)> = None;
-    for &f in body.faces_at(distinct[0] as usize) {
-        let facing = d.dot(&Vec3(body.faces()[f as usize].normal));
-        let holds_all = distinct[1..count].iter().all(|&v| body.faces_at(v as usize).contains(&f));
-        // rounding may have put the vertices on no common face: then the one that faces outward
-        let rank = (holds_all, facing);
-        if best.is_none_or(|b| rank > b.0) {
-            best = Some((rank, f));
-        }
+    let holds_all = |f: &u32| distinct[1..count].iter().all(|&v| body.faces_at(v as usize).contains(f));
+    let mut candidates = body.faces_at(distinct[0] as usize).iter().copied().filter(holds_all);
+    let first = candidates.next();
+    if body.rank() == 3
+        && let Some(f) = first
+    {
+        return Feature::Face(f);
     }
-    best.map_or(Feature::Vertex(distinct[0]), |b| Feature::Face(b.1))
+
+    // a polygon's two faces hold the same vertices; and rounding may have put them on no common face
+    let d: Vec3<f64> = Vec3(outward().to_f64());
+    let facing = |&f: &u32| d.dot(&Vec3(body.faces()[f as usize].normal));
+    let all = body.faces_at(distinct[0] as usize).iter().copied();
+    all.max_by(|f, g| facing(f).total_cmp(&facing(g))).map_or(Feature::Vertex(distinct[0]), Feature::Face)
 }
 
 #[cfg(test)]

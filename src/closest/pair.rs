@@ -21,6 +21,7 @@
 //! so the height of the difference along any direction, and the length of any of its points, are known
 //! to `error`. The same number is charged once to the lower and once to the upper bound of every answer.
 
+use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Quaternion};
@@ -145,6 +146,25 @@ impl<'a, R: Real + Heights> Pair<'a, R> {
     #[inline]
     pub(super) fn difference(&self, [i, j]: Ids) -> Vec3<R> {
         (self.point_b(j) + self.between) - self.point_a(i)
+    }
+
+    /// The simplex of up to four points of the difference. Neighbouring pairs often share a vertex, which
+    /// is then placed once.
+    #[inline]
+    pub(super) fn simplex(&self, ids: &[Ids]) -> Simplex<R> {
+        let mut simplex = Simplex::empty();
+        let Some(&[mut i, mut j]) = ids.first() else { return simplex };
+        let (mut a, mut b) = (self.point_a(i), self.point_b(j) + self.between);
+        for &ids in ids.iter().take(4) {
+            if ids[0] != i {
+                (i, a) = (ids[0], self.point_a(ids[0]));
+            }
+            if ids[1] != j {
+                (j, b) = (ids[1], self.point_b(ids[1]) + self.between);
+            }
+            simplex.push(ids, b - a);
+        }
+        simplex
     }
 
     /// The lowest point of the difference along `n`, by climbing from `from`, and a proven lower bound of

@@ -47,10 +47,7 @@ pub(super) fn search<R: Heights>(
     steps: &mut u32,
     enough: impl Fn(&Bounds<R>) -> bool,
 ) -> Found<R> {
-    let mut simplex = Simplex::empty();
-    for &ids in start.iter().take(4) {
-        simplex.push(ids, pair.difference(ids));
-    }
+    let mut simplex = pair.simplex(start);
     let mut hint = start.first().copied();
     if simplex.count == 0 {
         // along the line of centres
@@ -96,10 +93,7 @@ pub(super) fn search<R: Heights>(
 #[inline]
 pub(super) fn verify<R: Heights>(pair: &Pair<'_, R>, start: &[Ids], gap: f64, steps: &mut u32) -> Option<Bounds<R>> {
     *steps += 1;
-    let mut simplex = Simplex::empty();
-    for &ids in start {
-        simplex.push(ids, pair.difference(ids));
-    }
+    let mut simplex = pair.simplex(start);
     let Closest::At { point, normal } = simplex.reduce() else { return None };
     let (upper, length) = (point.norm(), normal.norm());
     if upper <= R::from(pair.error) || length == R::from(0.0) {

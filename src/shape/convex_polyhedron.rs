@@ -44,6 +44,7 @@ pub struct ConvexPolyhedron {
     faces_at: Vec<u32>,
     leaving_start: Vec<u32>,
     leaving: Vec<u32>,
+    leaving_to: Vec<u32>,
     seeds: Vec<u32>,
 }
 
@@ -151,6 +152,7 @@ impl ConvexPolyhedron {
             faces_at: Vec::new(),
             leaving_start: Vec::new(),
             leaving: Vec::new(),
+            leaving_to: Vec::new(),
             seeds: Vec::new(),
         };
         body.link(&triangles, &loops);
@@ -314,8 +316,9 @@ impl ConvexPolyhedron {
 
     /// The edge between two vertices, if there is one.
     pub fn edge_between(&self, from: usize, to: usize) -> Option<usize> {
-        let ends_there = |&&h: &&u32| self.half_edges[(h ^ 1) as usize].origin as usize == to;
-        self.leaving(from).iter().find(ends_there).map(|&h| (h / 2) as usize)
+        let range = self.leaving_start[from] as usize..self.leaving_start[from + 1] as usize;
+        let k = self.leaving_to[range.clone()].iter().position(|&v| v as usize == to)?;
+        Some((self.leaving[range.start + k] / 2) as usize)
     }
 
     /// Rings, half-edges, faces and the walls of the Voronoi regions.
@@ -385,6 +388,7 @@ impl ConvexPolyhedron {
         let mut leaving: Vec<(u32, u32)> = self.half_edges.iter().zip(0..).map(|(h, k)| (h.origin, k)).collect();
         leaving.sort_unstable();
         (self.leaving_start, self.leaving) = grouped(count, &leaving);
+        self.leaving_to = self.leaving.iter().map(|&h| self.half_edges[(h ^ 1) as usize].origin).collect();
     }
 
     /// The plane of a loop of vertices: its area vector (Newell), moved out to hold the whole body.
