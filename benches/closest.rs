@@ -37,6 +37,10 @@ fn points(count: usize, axes: [f64; 3], phase: f64) -> Vec<[f64; 3]> {
     (0..count).map(point).collect()
 }
 
+fn hull(points: &[[f64; 3]]) -> ConvexPolyhedron {
+    ConvexPolyhedron::from_points(points).expect("the points are finite")
+}
+
 /// Poses of B about A.
 fn poses(distance: f64, step: Option<f64>) -> Vec<Pose> {
     let mut state = 7u64;
@@ -71,7 +75,7 @@ fn main() {
             let poses = poses(distance, step);
             for size in SIZES {
                 let (pa, pb) = (points(size, [1.0, 0.8, 0.6], 0.0), points(size, [0.9, 1.0, 0.7], 1.0));
-                let (a, b) = (ConvexPolyhedron::from_points(&pa).unwrap(), ConvexPolyhedron::from_points(&pb).unwrap());
+                let (a, b) = (hull(&pa), hull(&pb));
                 report(regime, motion, size, &a, &b, &poses, step.is_some());
 
                 // every query of the motion in turn; criterion divides by one query
@@ -82,7 +86,7 @@ fn main() {
                         k = (k + 1) % QUERIES;
                         let cache = if step.is_some() { Some(&mut cache) } else { None };
                         closest_features(&a, &home, &b, black_box(&poses[k]), cache, Accuracy::Exact)
-                            .unwrap()
+                            .expect("the poses are finite")
                             .signed_distance
                     });
                 });
@@ -108,7 +112,7 @@ fn report(
     let mut cache = PairCache::new();
     for pose in poses {
         let cache = if warm { Some(&mut cache) } else { None };
-        let answer = closest_features(a, &Pose::identity(), b, pose, cache, Accuracy::Exact).unwrap();
+        let answer = closest_features(a, &Pose::identity(), b, pose, cache, Accuracy::Exact).expect("the poses are finite");
         certified += usize::from(answer.certified);
         steps += answer.steps;
         width = width.max(answer.upper - answer.lower);
@@ -122,7 +126,7 @@ fn report(
     let n = poses.len() as f64;
     eprintln!(
         "{regime}/{motion}/{size}: certified {:.2} %, {:.2} steps, verified {:.1} %, walked {:.1} %, double-double {}, widest {width:.1e}",
-        100.0 * f64::from(u32::try_from(certified).unwrap()) / n,
+        100.0 * certified as f64 / n,
         f64::from(steps) / n,
         100.0 * f64::from(rungs[0]) / n,
         100.0 * f64::from(rungs[1]) / n,
@@ -141,7 +145,7 @@ fn bench_parry(
 ) {
     let [a, b] = points.map(|p| {
         let p: Vec<Vector> = p.iter().map(|v| Vector::new(v[0], v[1], v[2])).collect();
-        ParryPolyhedron::from_convex_hull(&p).unwrap()
+        ParryPolyhedron::from_convex_hull(&p).expect("a solid")
     });
     let poses: Vec<ParryPose> = poses
         .iter()
