@@ -16,10 +16,10 @@ pub const COORDINATE_MAX: f64 = 1.0e30;
 /// Smallest size of a polyhedron that is not a point [m]: exact signs of volumes stay above underflow.
 pub const COORDINATE_MIN: f64 = 1.0e-30;
 
-/// Width of a certificate, as a fraction of the pair's size [-]: 36 ε is what the rounding of two
-/// rotations alone may cost. Wider answers are repeated in double-double. Larger: fewer repeats, wider
-/// intervals. Smaller: more repeats.
-pub const CERTIFICATE_WIDTH: f64 = 40.0 * f64::EPSILON;
+/// How far the bounds of an answer may be apart beyond what the rounding of the coordinates costs, as a
+/// fraction of the pair's size [-]. Wider answers are repeated in double-double. Larger: fewer repeats,
+/// wider intervals. Smaller: more repeats.
+pub const CERTIFICATE_SLACK: f64 = 6.0 * f64::EPSILON;
 
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
 /// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.

@@ -39,7 +39,7 @@ use crate::error::{Error, Result};
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Vector3};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
-use crate::tolerance::{CERTIFICATE_WIDTH, COORDINATE_MAX, SEARCH_GAP};
+use crate::tolerance::{CERTIFICATE_SLACK, COORDINATE_MAX, SEARCH_GAP};
 use depth::Core;
 use pair::{Heights, Ids, Pair};
 use search::{Bounds, Found};
@@ -89,7 +89,7 @@ impl Feature {
 /// When a query may stop.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Accuracy {
-    /// At an interval as narrow as rounding allows: `upper − lower ≤ 40 ε size`, mostly 10 to 28 ε size,
+    /// At an interval as narrow as rounding allows: `upper − lower ≤ 36 ε size`, mostly 10 to 28 ε size,
     /// where the size is both radii plus the distance of the centres.
     #[default]
     Exact,
@@ -325,7 +325,7 @@ fn describe<R: Heights>(
     } else {
         (State::Touching, false)
     };
-    let floor = CERTIFICATE_WIDTH * pair.size;
+    let floor = 2.0 * pair.error + CERTIFICATE_SLACK * pair.size;
     let certified = match accuracy {
         Accuracy::Exact => upper - lower <= floor,
         Accuracy::Relative(r) => upper - lower <= floor.max(r * pair.size),

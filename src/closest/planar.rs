@@ -20,7 +20,7 @@ use super::State;
 use crate::error::{Error, Result};
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::shape::convex_polygon::{ConvexPolygon, PlanarFeature};
-use crate::tolerance::{CERTIFICATE_WIDTH, COORDINATE_MAX};
+use crate::tolerance::{CERTIFICATE_SLACK, COORDINATE_MAX};
 use PlanarFeature::{Edge, Vertex};
 
 /// Where a polygon stands in the plane.
@@ -69,7 +69,7 @@ pub struct PlanarClosest {
     pub feature_b: PlanarFeature,
     /// The pairs of features that were visited, the last one last.
     pub path: Vec<WalkStep>,
-    /// Whether `upper − lower ≤ 40 ε size`.
+    /// Whether `upper − lower ≤ 30 ε size`.
     pub certified: bool,
 }
 
@@ -477,7 +477,7 @@ fn finish<R: Real>(found: &Answer<R>, error: f64, size: f64, origin: [f64; 2]) -
         feature_a: found.features[0],
         feature_b: found.features[1],
         path: Vec::new(),
-        certified: upper - lower <= CERTIFICATE_WIDTH * size,
+        certified: upper - lower <= 2.0 * error + CERTIFICATE_SLACK * size,
     }
 }
 
