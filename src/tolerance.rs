@@ -4,6 +4,37 @@
 /// few digits; what lies within is divided by its length, what lies outside is refused as a mistake.
 pub const QUATERNION_LENGTH: f64 = 1.0e-3;
 
+/// How far a velocity may leave the freedom of its body, relative to its size [-]. It allows for the
+/// rounding of numbers worked out elsewhere; what lies within is dropped, what lies outside is refused.
+pub const VELOCITY_FITS_FREEDOM: f64 = 1.0e-9;
+
+/// How much longer than asked a step may be so that it ends on a hard stop [-]. Without it, rounding
+/// leaves steps of 1e-16 s before stops that the steps should have met.
+pub const STEP_REMAINDER: f64 = 1.0e-9;
+/// How far a given inertia may be from symmetric, and how much its largest principal moment may
+/// exceed the sum of the two others, as a fraction of the largest entry [-]. Turning a tensor leaves
+/// 1e-15, a printout of ten digits 1e-10. What lies within is taken for rounding (the tensor is then
+/// made symmetric by the mean); no mass distribution has what lies outside, and it is refused.
+pub const INERTIA: f64 = 1.0e-9;
+
+/// How far the vertices of a polygonal face may be from its plane, as a fraction of the
+/// polyhedron's extent [-]. OBJ files printed to six digits stay within. The triangles from the
+/// face's first vertex bound the solid, so a bent face moves the volume by that fraction at most;
+/// what lies outside is refused, since then the fan's first vertex would matter.
+pub const FACE_PLANARITY: f64 = 1.0e-5;
+
+/// Volume, as a fraction of the bounding box's, below which a closed surface encloses none [-]. The
+/// volume is summed to about 1e-30 of the box, so what lies above is not rounding.
+pub const VOLUME: f64 = 1.0e-24;
+
+/// ε of the impact search, as a fraction of the size of the body [-], never below the rounding of its
+/// coordinates. Larger: bodies bounce early, by ε / speed. Smaller: the search ends as `Stalled`.
+pub const IMPACT_GAP: f64 = 1.0e-12;
+
+/// How far above the lowest a vertex may be to share its impact, as a fraction of the size of the body
+/// [-]. It decides whether a landing counts as flat: a tilt below it does.
+pub const TOUCH_GAP: f64 = 1.0e-9;
+
 /// How far from one plane the vertices of a polygonal face may lie, as a fraction of the body's radius
 /// [-]: the corners of a turned box, each rounded to `ε/2`, stray by a few ε. Larger: near-coplanar
 /// facets become one face, and its features are reported for all of them. Smaller: a turned box falls

@@ -33,6 +33,7 @@ pub mod planar;
 mod search;
 mod simplex;
 mod vector;
+pub mod vertex_plane;
 mod walk;
 
 use crate::error::{Error, Result};

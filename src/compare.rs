@@ -1,0 +1,239 @@
+//! What accuracy costs: one scene, several methods and steps, error against time.
+//!
+//! Error and time come from the same run. The error is that of the end state, against a closed form
+//! where the scene has one, else against a much finer run whose own error is estimated and stated.
+
+use std::fmt;
+
+use crate::error::{Error, Result};
+use crate::integrator::Method;
+use crate::plan::Plan;
+use crate::scene::{Record, RunOptions, Scene, Span};
+use crate::state::BodyState;
+use crate::reference;
+use crate::simulation::RunError;
+use crate::simulation::clock::thread_seconds;
+use crate::simulation::estimate::difference;
+use crate::text::short;
+use crate::trajectory::Trajectory;
+
+/// What is compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CompareOptions {
+    /// Methods of integration; all of them if empty.
+    pub methods: Vec<Method>,
+    /// Lengths of a step [s]; halvings from a first guess if empty.
+    pub steps: Vec<f64>,
+    /// How often each run is timed [-]; the least and the middle time are reported.
+    pub repeats: u32,
+    /// Everything else.
+    pub run: RunOptions,
+}
+
+impl Default for CompareOptions {
+    fn default() -> Self {
+        Self { methods: Vec::new(), steps: Vec::new(), repeats: 5, run: RunOptions::default() }
+    }
+}
+
+/// One run of the comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Method of integration.
+    pub method: Method,
+    /// Length of a step [s].
+    pub step: f64,
+    /// Error of the end state [-]: the larger of position error over the length scale and orientation
+    /// error in radians, over all bodies. None where the run broke off.
+    pub error: Option<f64>,
+    /// Evaluations of Y′.
+    pub evaluations: u64,
+    /// Steps.
+    pub steps: u64,
+    /// Least processor time of the repeats [s].
+    pub seconds_min: f64,
+    /// Middle processor time of the repeats [s].
+    pub seconds_median: f64,
+}
+
+/// What accuracy costs in one scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparisonTable {
+    /// The runs, method by method.
+    pub rows: Vec<Row>,
+    /// What the errors are measured against.
+    pub reference: String,
+    /// Estimated error of the reference itself [-]; errors below are not told apart from it.
+    pub reference_error: f64,
+}
+
+impl Scene {
+    /// Error against time for several methods and steps.
+    ///
+    /// # Errors
+    /// Bad input, and a scene whose reference run breaks off.
+    pub fn compare(&self, span: impl Into<Span>, options: &CompareOptions) -> Result<ComparisonTable, RunError> {
+        let span = span.into();
+        let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
+        let base =
+            RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
+        let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
+        let reference = Reference::new(self, span, &steps, &base)?;
+
+        let mut rows = Vec::new();
+        for &method in methods {
+            for &step in &steps {
+                let plan = self.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
+                rows.push(row(&plan, span, &reference, options.repeats.max(1))?);
+            }
+        }
+        Ok(ComparisonTable { rows, reference: reference.name, reference_error: reference.error })
+    }
+
+    /// Steps for a comparison that names none: ten halvings from the plan's first guess.
+    fn halvings(&self, span: Span, base: &RunOptions) -> Result<Vec<f64>> {
+        let plan = self.compile(&RunOptions { method: None, ..base.clone() })?;
+        let first = plan.first_step(span.end - span.start);
+        Ok((0..HALVINGS).map(|k| first / f64::from(1 << k)).collect())
+    }
+}
+
+/// Steps of a comparison that names none [-].
+const HALVINGS: u32 = 10;
+/// The reference's first step, as a part of the shortest step compared [-].
+const REFERENCE_STEP: f64 = 0.25;
+/// Halvings of the reference's step in search of the smallest error [-].
+const REFERENCE_HALVINGS: u32 = 6;
+/// Most steps of a reference run [-].
+const REFERENCE_STEPS: f64 = 4.0e6;
+
+/// What errors are measured against: states at the end of the span, and the length of their motion.
+struct Reference {
+    name: String,
+    error: f64,
+    states: Vec<BodyState>,
+    length_scale: f64,
+}
+
+impl Reference {
+    fn new(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
+        let best = Self::finest(scene, span, steps, base)?;
+        let plan = scene.compile(base)?;
+        Ok(match reference::closed_form(&plan, span.end - span.start) {
+            Some(states) => Self { name: "the closed form".to_owned(), error: 0.0, states, ..best },
+            None => best,
+        })
+    }
+
+    /// The finest affordable run of the method of highest order; its error by Richardson's rule from
+    /// the run before.
+    fn finest(scene: &Scene, span: Span, steps: &[f64], base: &RunOptions) -> Result<Self, RunError> {
+        let method = Method::ALL.iter().copied().max_by_key(|method| method.order()).unwrap_or(Method::Rk4);
+        let mut step = REFERENCE_STEP * steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let divisor = libm::pow(2.0, f64::from(method.order())) - 1.0;
+        let fine = |step: f64| -> Result<Self, RunError> {
+            let plan = scene.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
+            let run = plan.run(span)?;
+            let name = format!("{method} with h = {} s", short(step));
+            let states = run.states(run.times().len() - 1).to_vec();
+            Ok(Self { name, error: f64::INFINITY, states, length_scale: run.report().length_scale })
+        };
+        let mut best = fine(2.0 * step)?;
+        for _ in 0..REFERENCE_HALVINGS {
+            let mut run = fine(step)?;
+            run.error = difference(&run.states, &best.states, run.length_scale) / divisor;
+            let better = run.error < best.error;
+            if better {
+                best = run;
+            }
+            if !better || best.error < f64::EPSILON || (span.end - span.start) / step > 0.5 * REFERENCE_STEPS {
+                break;
+            }
+            step *= 0.5;
+        }
+        best.name += &format!(", own error about {}", short(best.error));
+        Ok(best)
+    }
+
+    fn error_of(&self, run: &Trajectory) -> f64 {
+        difference(run.states(run.times().len() - 1), &self.states, self.length_scale)
+    }
+}
+
+/// Times one method with one step, and measures its error.
+fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32) -> Result<Row, RunError> {
+    let mut seconds = Vec::new();
+    let mut outcome = None;
+    for _ in 0..repeats {
+        let began = thread_seconds();
+        outcome = Some(plan.run(span));
+        seconds.push(thread_seconds() - began);
+    }
+    seconds.sort_by(f64::total_cmp);
+    let (counts, error) = match outcome {
+        Some(Ok(run)) => (run.report().counts, Some(reference.error_of(&run))),
+        Some(Err(RunError::Simulation(broken))) => {
+            (broken.trajectory.map(|run| run.report().counts).unwrap_or_default(), None)
+        }
+        Some(Err(input)) => return Err(input),
+        None => return Err(Error::refused("compare", "no run was made").into()),
+    };
+    Ok(Row {
+        method: plan.method(),
+        step: plan.options().step.unwrap_or_default(),
+        error: error.filter(|e| e.is_finite()),
+        evaluations: counts.evaluations,
+        steps: counts.steps,
+        seconds_min: seconds[0],
+        seconds_median: seconds[seconds.len() / 2],
+    })
+}
+
+impl ComparisonTable {
+    /// The table as comma-separated values; a run that broke off has no error.
+    pub fn to_csv(&self) -> String {
+        let mut text = "method,step_s,error,evaluations,steps,seconds_min,seconds_median\n".to_owned();
+        for row in &self.rows {
+            let error = row.error.map(|e| format!("{e:e}")).unwrap_or_default();
+            let Row { method, step, evaluations, steps, seconds_min, seconds_median, .. } = row;
+            text += &format!("{method},{step:e},{error},{evaluations},{steps},{seconds_min:e},{seconds_median:e}\n");
+        }
+        text
+    }
+}
+
+impl fmt::Display for ComparisonTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "Error of the end state against {}", self.reference)?;
+        writeln!(
+            f,
+            "{:<20} {:>10} {:>11} {:>12} {:>10} {:>10}",
+            "method", "step [s]", "error", "evaluations", "time [s]", "order"
+        )?;
+        let mut before: Option<&Row> = None;
+        for row in &self.rows {
+            let error = match row.error {
+                None => "broke off".to_owned(),
+                Some(e) if e < 10.0 * self.reference_error => format!("< {}", short(10.0 * self.reference_error)),
+                Some(e) => short(e),
+            };
+            // the order that the error shows, from the row before
+            let order = before.filter(|b| b.method == row.method).and_then(|b| {
+                let (e0, e1) = (b.error?, row.error?);
+                let told = e1 > 10.0 * self.reference_error && e0 > e1 && b.step > row.step;
+                told.then(|| format!("{:.2}", libm::log(e0 / e1) / libm::log(b.step / row.step)))
+            });
+            writeln!(
+                f,
+                "{:<20} {:>10} {error:>11} {:>12} {:>10} {:>10}",
+                row.method.name(),
+                short(row.step),
+                row.evaluations,
+                short(row.seconds_min),
+                order.unwrap_or_default(),
+            )?;
+            before = Some(row);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,54 @@
+//! What happens when a body touches a fixed plane: it bounces, or it sticks (lecture §7).
+
+pub mod bounce;
+pub mod stick;
+
+use crate::math::Vector3;
+
+/// What a body does when it touches another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Response {
+    /// It rebounds, with the pair's restitution.
+    #[default]
+    Bounce,
+    /// It stays with the other body. A pair sticks if either body says so.
+    Stick,
+}
+
+impl Response {
+    /// The name that files and Python use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bounce => "bounce",
+            Self::Stick => "stick",
+        }
+    }
+}
+
+/// What a pair of bodies does when they touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Coefficient of restitution e [-].
+    pub restitution: f64,
+    /// Bounce or stick.
+    pub response: Response,
+}
+
+impl Material {
+    /// The material of a pair: the larger restitution, and sticking if either sticks.
+    pub fn of_pair(a: (f64, Response), b: (f64, Response)) -> Self {
+        let sticks = a.1 == Response::Stick || b.1 == Response::Stick;
+        Self { restitution: a.0.max(b.0), response: if sticks { Response::Stick } else { Response::Bounce } }
+    }
+}
+
+/// A touch that has been answered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer {
+    /// Impulse on the body, along the normal [N·s].
+    pub impulse: Vector3,
+    /// Kinetic energy lost [J].
+    pub energy_lost: f64,
+}

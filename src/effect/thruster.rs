@@ -1,0 +1,81 @@
+//! An engine fixed to a body.
+
+use super::{BodyMotion, Effect, Load, Moment, Schedule, Target, finite, power_of};
+use crate::error::Result;
+use crate::math::Vector3;
+
+/// An engine: a force fixed in the body at a point fixed in the body (lecture (33)–(37)).
+///
+/// ```text
+/// F = k R F_body        M = R (r_body × k F_body)        k the schedule's factor
+/// ```
+///
+/// The factor is piecewise constant, 0 before the first time and held after the last; the switch
+/// happens exactly at its time, and no step straddles it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Thruster {
+    /// The body that carries the engine.
+    pub body: String,
+    /// Where the force acts, body axes from the centre of mass [m].
+    pub point_body: [f64; 3],
+    /// The force at factor 1, body axes [N].
+    pub force_body: [f64; 3],
+    /// Times [s] and the factor of the force from then on; factor 1 always, if absent.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub schedule: Option<Schedule>,
+}
+
+impl Thruster {
+    /// An engine on `body` at `point_body` [m] with `force_body` [N], always on.
+    pub fn new(body: impl Into<String>, point_body: impl Into<[f64; 3]>, force_body: impl Into<[f64; 3]>) -> Self {
+        Self { body: body.into(), point_body: point_body.into(), force_body: force_body.into(), schedule: None }
+    }
+
+    /// Pairs of time [s] and factor.
+    #[must_use]
+    pub fn schedule(mut self, schedule: impl Into<Schedule>) -> Self {
+        self.schedule = Some(schedule.into());
+        self
+    }
+
+    fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {
+        let factor = Schedule::factor_or_one(self.schedule.as_ref(), at.since);
+        if factor != 0.0 {
+            let force = factor * Vector3::from(self.force_body);
+            load.force += body.rotation * force;
+            load.torque += body.rotation * Vector3::from(self.point_body).cross(&force);
+        }
+    }
+}
+
+impl Effect for Thruster {
+    fn validate(&self, place: &str) -> Result<()> {
+        finite(place, "point_body", self.point_body)?;
+        finite(place, "force_body", self.force_body)?;
+        Schedule::validate(self.schedule.as_ref(), place)
+    }
+
+    fn target(&self) -> Target {
+        Target::Each(vec![self.body.clone()])
+    }
+
+    fn idle(&self) -> Option<&'static str> {
+        (self.force_body == [0.0; 3]).then_some("its force is 0")
+    }
+
+    fn switches(&self) -> Vec<f64> {
+        Schedule::times(self.schedule.as_ref())
+    }
+
+    fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
+        for (body, load) in bodies.iter().zip(loads) {
+            self.add_to_one(at, body, load);
+        }
+    }
+
+    fn work_rate(&self, at: Moment, bodies: &[BodyMotion]) -> f64 {
+        bodies.iter().map(|body| power_of(body, |load| self.add_to_one(at, body, load))).sum()
+    }
+}

@@ -1,0 +1,63 @@
+//! A free body: Y = (x, P, q, L), lecture (24).
+
+use super::Scales;
+use super::spin::{Form, Spin, put, vector};
+use crate::state::{BodyMotion, BodyState, Load};
+
+/// Coordinates `[x, P, q or R, L]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Free {
+    spin: Spin,
+    inv_mass: f64,
+}
+
+impl Free {
+    pub(super) fn new(form: Form, motion: &BodyMotion) -> Self {
+        Self { spin: Spin::new(form, motion.inertia_body), inv_mass: 1.0 / motion.mass }
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        6 + self.spin.dimension()
+    }
+
+    pub(super) fn encode(&self, state: &BodyState, y: &mut [f64]) {
+        put(y, &state.position);
+        put(&mut y[3..], &state.linear_momentum);
+        self.spin.encode(&state.orientation, &state.angular_momentum, &mut y[6..]);
+    }
+
+    #[inline]
+    pub(super) fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
+        motion.position = vector(y);
+        motion.velocity = self.inv_mass * vector(&y[3..]);
+        (motion.orientation, motion.rotation, motion.angular_velocity) = self.spin.decode(&y[6..]);
+    }
+
+    #[inline]
+    pub(super) fn rate(&self, y: &[f64], motion: &BodyMotion, load: &Load, dy: &mut [f64]) {
+        put(dy, &motion.velocity);
+        put(&mut dy[3..], &load.force);
+        self.spin.rate(&y[6..], &motion.rotation, &motion.angular_velocity, &load.torque, &mut dy[6..]);
+    }
+
+    #[inline]
+    pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
+        put(dy, &(self.inv_mass * vector(&y[3..])));
+        dy[3..6].fill(0.0);
+        self.spin.rate_unloaded(&y[6..], &mut dy[6..]);
+    }
+
+    #[inline]
+    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+        dy[..6].fill(0.0);
+        self.spin.correction(&y[6..], &mut dy[6..])
+    }
+
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        let place = vector(e).norm() / scales.length;
+        let least = scales.length / (self.inv_mass * scales.time);
+        let momentum = vector(&e[3..]).norm() / vector(&y0[3..]).norm().max(vector(&y1[3..]).norm()).max(least);
+        place.max(momentum).max(self.spin.error_size(&y0[6..], &y1[6..], &e[6..], scales))
+    }
+}

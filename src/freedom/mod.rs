@@ -1,0 +1,232 @@
+//! How a body may move, and the few numbers that are then integrated.
+//!
+//! | freedom | coordinates | momenta | numbers |
+//! |---|---|---|---|
+//! | [`Freedom::Free`] | x, q (or R) | P, L | 13 (18) |
+//! | [`Freedom::Planar`] | two of x, an angle | two of P, one of L | 6 |
+//! | [`Freedom::Pivot`] | q (or R) | L about the pivot | 7 (12) |
+//! | [`Freedom::Axle`] | an angle | L about the axle | 2 |
+//!
+//! A constraint removes coordinates instead of adding forces, so it cannot be violated. The forces
+//! it would need are worked out where they are asked for ([`Chart::reaction`]).
+
+use crate::error::{Error, Result};
+use crate::math::{Matrix3, Vector3};
+use crate::state::{BodyMotion, BodyState, Load};
+
+mod axle;
+mod free;
+mod pivot;
+mod planar;
+mod spin;
+
+pub use spin::Form;
+
+/// How a body may move.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum Freedom {
+    /// Any way: 6 degrees of freedom.
+    #[default]
+    Free,
+    /// In a plane through its start: 3 degrees of freedom, rotation about the plane's normal.
+    Planar(Planar),
+    /// About a point that rests in the world: 3 degrees of freedom, a top.
+    Pivot(Pivot),
+    /// About an axis that rests in the world: 1 degree of freedom, a pendulum or a wheel.
+    Axle(Axle),
+}
+
+/// Motion in a plane.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Planar {
+    /// Normal of the plane, world axes; of any length but 0.
+    pub normal: [f64; 3],
+}
+
+/// Motion about a point.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Pivot {
+    /// The point that rests, body axes from the centre of mass [m].
+    pub point_body: [f64; 3],
+}
+
+/// Motion about an axis.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Axle {
+    /// A point of the axis, body axes from the centre of mass [m].
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub point_body: [f64; 3],
+    /// Direction of the axis, body axes; of any length but 0.
+    pub axis_body: [f64; 3],
+}
+
+impl Freedom {
+    /// Motion in the plane with this normal (world axes).
+    pub fn planar(normal: impl Into<[f64; 3]>) -> Self {
+        Self::Planar(Planar { normal: normal.into() })
+    }
+
+    /// Motion about this point (body axes from the centre of mass [m]).
+    pub fn pivot(point_body: impl Into<[f64; 3]>) -> Self {
+        Self::Pivot(Pivot { point_body: point_body.into() })
+    }
+
+    /// Motion about the axis through this point (body axes from the centre of mass [m]).
+    pub fn axle(point_body: impl Into<[f64; 3]>, axis_body: impl Into<[f64; 3]>) -> Self {
+        Self::Axle(Axle { point_body: point_body.into(), axis_body: axis_body.into() })
+    }
+
+    /// The name that files and reports use.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Free => "free",
+            Self::Planar(_) => "planar",
+            Self::Pivot(_) => "pivot",
+            Self::Axle(_) => "axle",
+        }
+    }
+}
+
+/// What errors of a motion are measured by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Length that positions are measured by [m].
+    pub length: f64,
+    /// Time that the motion takes [s]. Momenta below `m length/time` and `I/time` do not matter to it:
+    /// errors of smaller ones are measured by these.
+    pub time: f64,
+}
+
+/// A body's coordinates: how its state is written as the numbers that are integrated, and back.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Chart {
+    /// All coordinates.
+    Free(free::Free),
+    /// Two of the position, one angle.
+    Planar(planar::Planar),
+    /// The orientation.
+    Pivot(pivot::Pivot),
+    /// One angle.
+    Axle(axle::Axle),
+    /// None: the body rests.
+    Fixed,
+}
+
+/// Calls the variant's own method; a fixed body has nothing to integrate.
+macro_rules! dispatch {
+    ($chart:expr, $inner:ident => $call:expr, $fixed:expr) => {
+        match $chart {
+            Chart::Free($inner) => $call,
+            Chart::Planar($inner) => $call,
+            Chart::Pivot($inner) => $call,
+            Chart::Axle($inner) => $call,
+            Chart::Fixed => $fixed,
+        }
+    };
+}
+
+impl Chart {
+    /// The coordinates of a body that starts with `motion`.
+    ///
+    /// # Errors
+    /// A direction of length 0, and a velocity that the freedom does not allow.
+    pub fn new(freedom: &Freedom, form: Form, motion: &BodyMotion, place: &str) -> Result<Self> {
+        Ok(match freedom {
+            Freedom::Free => Self::Free(free::Free::new(form, motion)),
+            Freedom::Planar(data) => Self::Planar(planar::Planar::new(data, motion, place)?),
+            Freedom::Pivot(data) => Self::Pivot(pivot::Pivot::new(data, form, motion, place)?),
+            Freedom::Axle(data) => Self::Axle(axle::Axle::new(data, motion, place)?),
+        })
+    }
+
+    /// How many numbers are integrated.
+    pub fn dimension(&self) -> usize {
+        dispatch!(self, c => c.dimension(), 0)
+    }
+
+    /// Writes a state as coordinates.
+    pub fn encode(&self, state: &BodyState, y: &mut [f64]) {
+        dispatch!(self, c => c.encode(state, y), ());
+    }
+
+    /// Reads the motion from coordinates; mass and inertia of `motion` stay.
+    #[inline]
+    pub fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
+        dispatch!(self, c => c.decode(y, motion), ());
+    }
+
+    /// `dY/dt` under a load, lecture (24); `motion` is what [`decode`](Self::decode) read from `y`.
+    #[inline]
+    pub fn rate(&self, y: &[f64], motion: &BodyMotion, load: &Load, dy: &mut [f64]) {
+        dispatch!(self, c => c.rate(y, motion, load, dy), ());
+    }
+
+    /// `dY/dt` where nothing acts on the body: no load, and no motion to be read first. It is also
+    /// the drift of a splitting, whose kick is the rest of [`rate`](Self::rate).
+    #[inline]
+    pub fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
+        dispatch!(self, c => c.rate_unloaded(y, dy), ());
+    }
+
+    /// What puts the orientation back on its sphere (or R on the rotations), lecture §4, to be added
+    /// to `y`; returns how far it has strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
+    #[inline]
+    pub fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+        dispatch!(self, c => c.correction(y, dy), 0.0)
+    }
+
+    /// Size of an error `e` of a step from `y0` to `y1` [-]: of the position over a length, of
+    /// the orientation in radians, of momenta over their own size.
+    #[inline]
+    pub fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        dispatch!(self, c => c.error_size(y0, y1, e, scales), 0.0)
+    }
+
+    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m].
+    pub fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {
+        match self {
+            Self::Free(_) => Load::zero(),
+            Self::Planar(c) => c.reaction(motion, load),
+            Self::Pivot(c) => c.reaction(motion, load),
+            Self::Axle(c) => c.reaction(motion, load),
+            Self::Fixed => Load { force: -load.force, torque: -load.torque },
+        }
+    }
+}
+
+/// What the constraint must add so that the centre of mass accelerates with `a` and the body turns
+/// with the angular acceleration `alpha`: Newton's and Euler's equations solved for the load.
+fn missing_load(motion: &BodyMotion, load: &Load, a: &Vector3, alpha: &Vector3) -> Load {
+    let inertia = motion.rotation * motion.inertia_body * motion.rotation.transpose();
+    let w = &motion.angular_velocity;
+    Load { force: motion.mass * a - load.force, torque: inertia * alpha + w.cross(&(inertia * w)) - load.torque }
+}
+
+/// The direction of a vector given by the user.
+fn direction(place: &str, field: &'static str, value: [f64; 3]) -> Result<Vector3> {
+    let v = Vector3::from(value);
+    let scale = v.amax();
+    if !(scale.is_finite() && scale > 0.0) {
+        return Err(Error::value(place, field, "a finite vector that is not 0", value));
+    }
+    let v = v / scale;
+    Ok(v / v.norm())
+}
+
+/// Inverse of an inertia tensor that has been found positive definite.
+fn inverse(inertia: &Matrix3) -> Matrix3 {
+    inertia.try_inverse().unwrap_or_else(|| Matrix3::from_element(f64::NAN))
+}
+
+/// `I + m (r·r 1 − r rᵀ)`: inertia about the point `−r` from the centre of mass, or `r` as well.
+fn about_point(motion: &BodyMotion, r: &Vector3) -> Matrix3 {
+    motion.inertia_body + motion.mass * (Matrix3::identity() * r.norm_squared() - r * r.transpose())
+}

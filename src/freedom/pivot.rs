@@ -1,0 +1,89 @@
+//! A body that turns about a point at rest: a top.
+
+use super::Scales;
+use super::spin::{Form, Spin};
+use crate::error::{Error, Result};
+use crate::math::Vector3;
+use crate::state::{BodyMotion, BodyState, Load};
+use crate::tolerance::VELOCITY_FITS_FREEDOM;
+
+/// Coordinates `[q or R, L about the pivot]`.
+///
+/// ```text
+/// r = −R p_body,  x = pivot + r,  v = ω × r,  L_p = I_p ω,  dL_p/dt = M + r × F
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pivot {
+    spin: Spin,
+    /// The point that rests, world axes [m].
+    pivot: Vector3,
+    /// From the pivot to the centre of mass, body axes [m].
+    arm_body: Vector3,
+}
+
+impl Pivot {
+    pub(super) fn new(data: &super::Pivot, form: Form, motion: &BodyMotion, place: &str) -> Result<Self> {
+        if !data.point_body.iter().all(|x| x.is_finite()) {
+            return Err(Error::value(place, "freedom.pivot.point_body", "three finite numbers", data.point_body));
+        }
+        let arm_body = -Vector3::from(data.point_body);
+        let pivot = motion.position - motion.rotation * arm_body;
+        let slip = motion.velocity_at(&pivot).norm();
+        if slip > VELOCITY_FITS_FREEDOM * (motion.velocity.norm() + motion.angular_velocity.norm() * arm_body.norm()) {
+            let allowed = "that of a rotation about the pivot; leave it out and give angular_velocity";
+            return Err(Error::value(place, "velocity", allowed, motion.velocity.as_slice()));
+        }
+        let inertia = super::about_point(motion, &arm_body);
+        Ok(Self { spin: Spin::new(form, inertia), pivot, arm_body })
+    }
+
+    pub(super) fn dimension(&self) -> usize {
+        self.spin.dimension()
+    }
+
+    pub(super) fn encode(&self, state: &BodyState, y: &mut [f64]) {
+        let r = state.position - self.pivot;
+        let momentum = state.angular_momentum + r.cross(&state.linear_momentum);
+        self.spin.encode(&state.orientation, &momentum, y);
+    }
+
+    #[inline]
+    pub(super) fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
+        (motion.orientation, motion.rotation, motion.angular_velocity) = self.spin.decode(y);
+        let r = motion.rotation * self.arm_body;
+        motion.position = self.pivot + r;
+        motion.velocity = motion.angular_velocity.cross(&r);
+    }
+
+    #[inline]
+    pub(super) fn rate(&self, y: &[f64], motion: &BodyMotion, load: &Load, dy: &mut [f64]) {
+        let torque = load.torque + (motion.rotation * self.arm_body).cross(&load.force);
+        self.spin.rate(y, &motion.rotation, &motion.angular_velocity, &torque, dy);
+    }
+
+    #[inline]
+    pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
+        self.spin.rate_unloaded(y, dy);
+    }
+
+    #[inline]
+    pub(super) fn correction(&self, y: &[f64], dy: &mut [f64]) -> f64 {
+        self.spin.correction(y, dy)
+    }
+
+    #[inline]
+    pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
+        self.spin.error_size(y0, y1, e, scales)
+    }
+
+    pub(super) fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {
+        // Euler's equations about the pivot give the angular acceleration, the arm the acceleration
+        let r = motion.rotation * self.arm_body;
+        let w = motion.angular_velocity_body();
+        let inertia = super::about_point(motion, &self.arm_body);
+        let torque = motion.rotation.tr_mul(&(load.torque + r.cross(&load.force)));
+        let alpha = motion.rotation * self.spin.over_inertia(&(torque - w.cross(&(inertia * w))));
+        let a = alpha.cross(&r) + motion.angular_velocity.cross(&motion.velocity);
+        super::missing_load(motion, load, &a, &alpha)
+    }
+}

@@ -1,0 +1,216 @@
+//! Motion without contact: an integrator on its problem, and the motion of its last step.
+
+use super::{Front, Integrator, Problem, Segment, StateVector};
+use crate::math::sum::Time;
+use crate::state::BodyMotion;
+use std::fmt::Debug;
+
+/// What a flight has done so far.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Counts {
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps refused by error control.
+    pub rejected: u64,
+    /// Evaluations of Y′.
+    pub evaluations: u64,
+    /// Largest `||q| − 1|`, or `‖RᵀR − I‖`, before an orientation was put back [-].
+    pub orientation_drift: f64,
+}
+
+impl Counts {
+    /// Adds the work of another flight; of two drifts the larger stays.
+    pub fn add(&mut self, other: &Self) {
+        self.steps += other.steps;
+        self.rejected += other.rejected;
+        self.evaluations += other.evaluations;
+        self.orientation_drift = self.orientation_drift.max(other.orientation_drift);
+    }
+}
+
+/// Why a flight cannot go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FlightError {
+    /// A number is not finite any more.
+    #[error("state is not finite")]
+    NotFinite,
+    /// A user's function gave up.
+    #[error("a user effect failed: {0}")]
+    UserEffect(String),
+    /// Error control wants ever shorter steps: the loads change too abruptly for the tolerance.
+    #[error("no step is short enough for the tolerance, not even {0:e} s")]
+    StepTooShort(f64),
+}
+
+/// The motion of a group of bodies between contacts.
+pub trait Flight: Debug + Send {
+    /// How far the motion is known [s].
+    fn front(&self) -> f64;
+
+    /// Takes one step, which ends at `limit` [s] or before it. Of the motion only the front is known
+    /// then; [`interpolate`](Self::interpolate) makes the rest known.
+    ///
+    /// # Errors
+    /// The state is not finite any more, no step is short enough, or a user's function failed.
+    fn advance(&mut self, limit: f64) -> Result<(), FlightError>;
+
+    /// Makes the motion within the last step known.
+    ///
+    /// # Errors
+    /// The motion is not finite, though both of its ends are.
+    fn interpolate(&mut self) -> Result<(), FlightError>;
+
+    /// The motion of the last step that was interpolated, as numbers.
+    fn segment(&self) -> &Segment;
+
+    /// The motion of every body at `t` [s]: at the front, or within the last step, interpolated.
+    fn at(&self, t: f64, motions: &mut [BodyMotion]);
+
+    /// The same at a time from the start of the last step [s], which no rounding of large times blurs.
+    fn at_offset(&self, offset: f64, motions: &mut [BodyMotion]);
+
+    /// Cuts the last step, interpolated, at a time from its start [s]: the front is there now.
+    fn cut(&mut self, offset: f64);
+
+    /// Sets the front's clock and the start of its interval without switches [s].
+    fn set_clock(&mut self, time: Time, since: f64);
+
+    /// Marks that the interval up to the front is over: what follows sees the other side of a switch.
+    ///
+    /// # Errors
+    /// As [`interpolate`](Self::interpolate).
+    fn pass_switch(&mut self) -> Result<(), FlightError>;
+
+    /// What has been done so far.
+    fn counts(&self) -> &Counts;
+
+    /// The front's instant, and the start of its interval without switches [s].
+    fn clock(&self) -> (Time, f64);
+
+    /// The front as it is kept in a saved state.
+    fn saved_front(&self) -> Front<Vec<f64>>;
+
+    /// Goes on from a saved front.
+    fn resume(&mut self, front: &Front<Vec<f64>>, segment: Segment, counts: Counts);
+}
+
+/// A flight by numerical integration.
+#[derive(Debug)]
+pub struct Integration<P: Problem> {
+    problem: P,
+    integrator: Box<dyn Integrator<P>>,
+    front: Front<P::Y>,
+    /// Where the last step began.
+    start: Time,
+    /// The last step that was interpolated, and whether a later one waits for it.
+    segment: Segment,
+    stale: bool,
+    counts: Counts,
+}
+
+impl<P: Problem> Integration<P> {
+    /// A flight that starts at `t` [s] with the numbers `y`.
+    pub fn new(problem: P, integrator: Box<dyn Integrator<P>>, t: f64, y: &[f64]) -> Self {
+        let mut start = P::Y::zeros(y.len());
+        start.as_mut().copy_from_slice(y);
+        let front = Front { time: Time::new(t), since: t, y: start, rest: P::Y::zeros(y.len()) };
+        let (segment, counts) = (Segment::default(), Counts::default());
+        Self { problem, integrator, front, start: Time::new(t), segment, stale: false, counts }
+    }
+}
+
+impl<P: Problem> Flight for Integration<P> {
+    fn front(&self) -> f64 {
+        self.front.time.value
+    }
+
+    fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
+        let Self { problem, integrator, front, start, counts, .. } = self;
+        *start = front.time;
+        self.stale = true;
+        let taken = integrator.advance(problem, front, limit, counts);
+        if taken.is_ok() && front.y.as_ref().iter().sum::<f64>().is_finite() {
+            return Ok(());
+        }
+        match problem.take_failure() {
+            Some(message) => Err(FlightError::UserEffect(message)),
+            None => Err(taken.err().unwrap_or(FlightError::NotFinite)),
+        }
+    }
+
+    fn interpolate(&mut self) -> Result<(), FlightError> {
+        if !std::mem::take(&mut self.stale) {
+            return Ok(());
+        }
+        let Self { problem, integrator, front, segment, counts, .. } = self;
+        integrator.interpolate(problem, front, segment, counts);
+
+        // without branches, so that it costs a few nanoseconds
+        let finite = segment.coefficients.iter().fold(true, |finite, c| finite & c.is_finite());
+        if finite { Ok(()) } else { Err(FlightError::NotFinite) }
+    }
+
+    fn segment(&self) -> &Segment {
+        &self.segment
+    }
+
+    fn at(&self, t: f64, motions: &mut [BodyMotion]) {
+        // the ends are the integrator's own states, to the bit
+        if self.segment.dimension == 0 || t >= self.front.time.value {
+            return self.problem.decode(self.front.y.as_ref(), motions);
+        }
+        self.at_offset(t - self.segment.start, motions);
+    }
+
+    fn at_offset(&self, offset: f64, motions: &mut [BodyMotion]) {
+        let mut y = P::Y::zeros(self.segment.dimension);
+        self.segment.at_offset(offset, y.as_mut());
+        self.problem.decode(y.as_ref(), motions);
+    }
+
+    fn cut(&mut self, offset: f64) {
+        self.segment.at_offset(offset, self.front.y.as_mut());
+        self.front.rest.as_mut().fill(0.0);
+        self.front.time = self.start + offset;
+        self.segment.end = self.front.time.value;
+        self.integrator.restart();
+    }
+
+    fn set_clock(&mut self, time: Time, since: f64) {
+        self.front.time = time;
+        self.front.since = since;
+    }
+
+    fn pass_switch(&mut self) -> Result<(), FlightError> {
+        // what lies behind the switch is seen from its own side
+        self.interpolate()?;
+        self.front.since = self.front.time.value;
+        self.integrator.restart();
+        Ok(())
+    }
+
+    fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    fn clock(&self) -> (Time, f64) {
+        (self.front.time, self.front.since)
+    }
+
+    fn saved_front(&self) -> Front<Vec<f64>> {
+        let Front { time, since, y, rest } = &self.front;
+        Front { time: *time, since: *since, y: y.as_ref().to_vec(), rest: rest.as_ref().to_vec() }
+    }
+
+    fn resume(&mut self, front: &Front<Vec<f64>>, segment: Segment, counts: Counts) {
+        self.set_clock(front.time, front.since);
+        self.start = Time::new(segment.start);
+        self.front.y.as_mut().copy_from_slice(&front.y);
+        self.front.rest.as_mut().copy_from_slice(&front.rest);
+        self.segment = segment;
+        self.counts = counts;
+        self.integrator.restart();
+    }
+}

@@ -1,0 +1,335 @@
+//! Methods that advance Y′ = f(t, Y): one method, one file, one line in the list below.
+//!
+//! A method sees a [`Problem`], never bodies or effects. It takes steps, of a given length or as long
+//! as an allowed error permits ([`Control`]). Where someone looks between the ends of a step, it
+//! writes a [`Segment`]: a polynomial in time that **is** the motion there. Samples, events and
+//! contacts all read that same polynomial.
+//!
+//! ```text
+//! Problem ──method──▶ Segment, Segment, …     held by a Flight, which answers at(t)
+//! ```
+
+use std::fmt::Debug;
+
+use crate::error::{Error, Result};
+use crate::freedom::{Form, Scales};
+use crate::math::sum::{Time, two_sum};
+use crate::state::{BodyMotion, Moment};
+
+mod dop853;
+mod euler;
+mod flight;
+pub mod free_rotation;
+mod heun;
+mod rk4;
+mod segment;
+mod semi_implicit_euler;
+mod stepper;
+mod tsit5;
+
+pub use flight::{Counts, Flight, FlightError, Integration};
+pub use segment::Segment;
+
+/// The numbers that are integrated. A fixed length lets the compiler unroll the step of a single
+/// body; groups of bodies use a `Vec`.
+pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
+    /// `n` zeros.
+    fn zeros(n: usize) -> Self;
+
+    /// `self += a · k`
+    #[inline]
+    fn add_scaled(&mut self, a: f64, k: &Self) {
+        for (y, k) in self.as_mut().iter_mut().zip(k.as_ref()) {
+            *y += a * k;
+        }
+    }
+
+    /// `self = y + a · k`
+    #[inline]
+    fn set_sum(&mut self, y: &Self, a: f64, k: &Self) {
+        for ((s, y), k) in self.as_mut().iter_mut().zip(y.as_ref()).zip(k.as_ref()) {
+            *s = y + a * k;
+        }
+    }
+
+    /// `self = y + h Σ a_j k_j`
+    #[inline]
+    fn set_combination<const N: usize>(&mut self, y: &Self, h: f64, terms: [(f64, &Self); N]) {
+        let terms = terms.map(|(a, k)| (a, k.as_ref()));
+        for (i, (s, y)) in self.as_mut().iter_mut().zip(y.as_ref()).enumerate() {
+            let mut sum = terms[0].0 * terms[0].1[i];
+            for (a, k) in &terms[1..] {
+                sum += a * k[i];
+            }
+            *s = y + h * sum;
+        }
+    }
+
+    /// `self = h Σ a_j k_j`
+    #[inline]
+    fn set_increment<const N: usize>(&mut self, h: f64, terms: [(f64, &Self); N]) {
+        let terms = terms.map(|(a, k)| (a, k.as_ref()));
+        for (i, s) in self.as_mut().iter_mut().enumerate() {
+            let mut sum = terms[0].0 * terms[0].1[i];
+            for (a, k) in &terms[1..] {
+                sum += a * k[i];
+            }
+            *s = h * sum;
+        }
+    }
+
+    /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
+    #[inline]
+    fn add_compensated(&mut self, dy: &Self, rest: &mut Self) {
+        for ((y, dy), rest) in self.as_mut().iter_mut().zip(dy.as_ref()).zip(rest.as_mut()) {
+            (*y, *rest) = two_sum(*y, dy + *rest);
+        }
+    }
+}
+
+impl<const N: usize> StateVector for [f64; N] {
+    fn zeros(n: usize) -> Self {
+        debug_assert_eq!(n, N);
+        [0.0; N]
+    }
+}
+
+impl StateVector for Vec<f64> {
+    fn zeros(n: usize) -> Self {
+        vec![0.0; n]
+    }
+}
+
+/// A differential equation Y′ = f(t, Y), and what a method may know about it beyond f.
+pub trait Problem: Debug + Send {
+    /// The numbers that are integrated.
+    type Y: StateVector;
+
+    /// How many numbers they are.
+    fn dimension(&self) -> usize;
+
+    /// How many bodies move.
+    fn bodies(&self) -> usize;
+
+    /// `dy = f(t, y)`
+    fn rate(&mut self, at: Moment, y: &Self::Y, dy: &mut Self::Y);
+
+    /// The part of f that is left when all loads are 0; `f − drift` is the kick of a splitting.
+    fn drift(&mut self, y: &Self::Y, dy: &mut Self::Y);
+
+    /// What puts orientations back on their sphere (lecture §4), to be added to `y`; returns how far
+    /// the worst has strayed [-].
+    fn correction(&self, y: &Self::Y, dy: &mut Self::Y) -> f64;
+
+    /// Size of an error `e` of a step from `y0` to `y1` [-]: positions over a length, orientations in
+    /// radians, momenta over their own size; the largest of all bodies.
+    fn error_size(&self, y0: &Self::Y, y1: &Self::Y, e: &Self::Y, scales: &Scales) -> f64;
+
+    /// The motion of every body, read from the numbers.
+    fn decode(&self, y: &[f64], motions: &mut [BodyMotion]);
+
+    /// What a user's function complained about, once.
+    fn take_failure(&mut self) -> Option<String>;
+}
+
+/// What decides the length of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// Every step is this long [s].
+    Step(f64),
+    /// Every step is as long as its error allows.
+    Error(Limits),
+}
+
+/// How much error a step may make.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest error of a step [-].
+    pub local: f64,
+    /// What it is measured by.
+    pub scales: Scales,
+    /// Longest step [s].
+    pub longest: f64,
+}
+
+/// Where an integration stands.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Front<Y> {
+    /// The instant, with its rounding error kept.
+    pub time: Time,
+    /// Start of the interval without switches [s].
+    pub since: f64,
+    /// The numbers there.
+    pub y: Y,
+    /// What rounding dropped of them.
+    pub rest: Y,
+}
+
+impl<Y> Front<Y> {
+    /// The moment of the front.
+    pub fn moment(&self) -> Moment {
+        Moment { time: self.time.value, since: self.since }
+    }
+}
+
+/// Advances a problem, a step at a call.
+pub trait Integrator<P: Problem>: Debug + Send {
+    /// Takes one step, which ends at `limit` or before it.
+    ///
+    /// # Errors
+    /// No step is short enough for the error allowed.
+    fn advance(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        limit: f64,
+        counts: &mut Counts,
+    ) -> Result<(), FlightError>;
+
+    /// Writes the motion within the last step, which ended at `front`.
+    fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts);
+
+    /// Forgets what it knew of the path: the front has jumped.
+    fn restart(&mut self);
+}
+
+/// Declares the methods: one line adds a variant, its name, its facts and its step.
+macro_rules! methods {
+    ($($(#[$doc:meta])* $variant:ident => $module:ident,)*) => {
+        /// A method of integration.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+        pub enum Method {
+            $($(#[$doc])* $variant,)*
+        }
+
+        impl Method {
+            /// Every method, in the order of the list.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
+
+            /// The name that files, reports and Python use.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => stringify!($module),)*
+                }
+            }
+
+            /// Order of accuracy: halving the step divides the error by two to this power.
+            pub fn order(self) -> u32 {
+                match self {
+                    $(Self::$variant => $module::ORDER,)*
+                }
+            }
+
+            /// Evaluations of f in one step.
+            pub fn evaluations(self) -> u32 {
+                match self {
+                    $(Self::$variant => $module::EVALUATIONS,)*
+                }
+            }
+
+            /// Whether it integrates the angular momentum in body axes; else in the lecture's world axes.
+            pub fn in_body_axes(self) -> bool {
+                match self {
+                    $(Self::$variant => $module::BODY_AXES,)*
+                }
+            }
+
+            /// Whether it estimates the error of a step, so that [`Control::Error`] can choose the length.
+            pub fn controls_error(self) -> bool {
+                match self {
+                    $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
+                }
+            }
+
+            /// The method on a problem.
+            pub fn integrator<P: Problem + 'static>(self, problem: &P, control: Control, projection: bool) -> Box<dyn Integrator<P>> {
+                let n = problem.dimension();
+                match self {
+                    $(Self::$variant => Box::new(stepper::Stepper::<P, $module::Kernel<P::Y>>::new(n, control, projection)),)*
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    /// Euler's method, order 1: the lecture's first step, and its warning.
+    Euler => euler,
+    /// Heun's method, order 2.
+    Heun => heun,
+    /// Semi-implicit Euler, order 1: the new velocity moves the body (lecture §6).
+    SemiImplicitEuler => semi_implicit_euler,
+    /// The classical Runge–Kutta method, order 4, with the angular momentum in body axes.
+    Rk4 => rk4,
+    /// Tsitouras' method, order 5, with error control.
+    Tsit5 => tsit5,
+    /// Dormand's and Prince's method, order 8, with error control.
+    Dop853 => dop853,
+}
+
+impl Method {
+    /// The form in which the method integrates orientation, for the form of orientation asked for.
+    pub(crate) fn form(self, matrix: bool) -> Form {
+        match (self.in_body_axes(), matrix) {
+            (true, _) => Form::Body,
+            (false, true) => Form::WorldMatrix,
+            (false, false) => Form::WorldQuaternion,
+        }
+    }
+}
+
+impl std::fmt::Display for Method {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for Method {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self> {
+        Self::ALL.iter().copied().find(|method| method.name() == name).ok_or_else(|| {
+            let names: Vec<_> = Self::ALL.iter().map(|method| method.name()).collect();
+            Error::value("run", "method", format!("one of {}", names.join(", ")), name)
+        })
+    }
+}
+
+/// A step that was taken: its start and length, and state and slope at both ends.
+#[derive(Debug)]
+struct Step<'a, Y> {
+    at: Moment,
+    h: f64,
+    y0: &'a Y,
+    k0: &'a Y,
+    y1: &'a Y,
+    k1: &'a Y,
+}
+
+/// What makes one method different from another; it owns the vectors it works with.
+trait Kernel<Y: StateVector>: Debug + Send {
+    /// Evaluations of f in one step, that of `k0` included.
+    const EVALUATIONS: u32;
+
+    /// The power of h with which the estimate of a step's error falls; 0 where there is none.
+    const ERROR_ORDER: f64 = 0.0;
+
+    fn new(n: usize) -> Self;
+
+    /// The change of `y` in a step of length `h`; `k0 = f(t, y)` is known.
+    fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y);
+
+    /// Estimate of the error of the step just taken, from `y0` to `y1`, as a size [-].
+    fn error<P: Problem<Y = Y>>(&mut self, _problem: &mut P, _y0: &Y, _y1: &Y, _h: f64, _scales: &Scales) -> f64 {
+        0.0
+    }
+
+    /// The motion within the step just taken; returns the evaluations of f it took beyond those given.
+    fn interpolate<P: Problem<Y = Y>>(&mut self, _problem: &mut P, step: &Step<'_, Y>, segment: &mut Segment) -> u32 {
+        segment.set_hermite(step.at, step.h, [step.y0, step.k0, step.y1, step.k1].map(AsRef::as_ref));
+        0
+    }
+}

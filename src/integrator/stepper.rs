@@ -1,0 +1,226 @@
+//! What all one-step methods share: where steps end, how long they are, and what is kept of them.
+
+use super::{Control, Counts, FlightError, Front, Integrator, Kernel, Limits, Problem, Segment, StateVector, Step};
+use crate::math::sum::Time;
+use crate::state::Moment;
+use crate::tolerance::STEP_REMAINDER;
+
+/// A one-step method on its way.
+///
+/// ```text
+/// Y₁ = Y₀ + ΔY,  then orientations put back on their sphere        both sums compensated
+/// ```
+///
+/// With [`Control::Step`] steps follow each other from the start or the last hard stop, and the one
+/// before a hard stop is shortened so that it ends there. With [`Control::Error`] the length follows
+/// the method's own estimate `e` of a step's error, as a part of what is allowed (Gustafsson 1991,
+/// ACM Trans. Math. Softw. 17:533):
+///
+/// ```text
+/// accepted where e ≤ 1;   h ← 0.9 h e^(−0.85/k) e₋^(0.2/k)        k the order of e, e₋ of the step before
+/// ```
+#[derive(Debug)]
+pub(super) struct Stepper<P: Problem, K> {
+    control: Control,
+    projection: bool,
+    kernel: K,
+    /// The last step: its start, its length, and the slopes at both ends.
+    at: Moment,
+    h: f64,
+    start: P::Y,
+    slope: P::Y,
+    end_slope: P::Y,
+    /// Whether the slope at the front is known, in `end_slope`.
+    slope_known: bool,
+    increment: P::Y,
+    trial: P::Y,
+    trial_rest: P::Y,
+    /// Length that error control proposes for the next step [s]; 0 where it has none yet.
+    proposal: f64,
+    /// Error of the last accepted step, as a part of what is allowed [-].
+    last_error: f64,
+}
+
+/// Growth and shrinkage of a step are kept within these factors [-].
+const GROWTH: (f64, f64) = (0.2, 6.0);
+/// Factor of caution in the next step [-]: about one step in ten is refused at 0.95, one in fifty at 0.9.
+const CAUTION: f64 = 0.9;
+/// Refusals in a row after which the step is said to have no end [-]: each shortens it by at least a tenth.
+const REFUSALS: u32 = 64;
+/// Steps shorter than this part of the instant's size cannot be told from none [-].
+const SHORTEST: f64 = 4.0 * f64::EPSILON;
+/// Least error of the last step that the next takes note of [-].
+const LEAST_ERROR: f64 = 1.0e-4;
+
+impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
+    pub(super) fn new(n: usize, control: Control, projection: bool) -> Self {
+        let zeros = || P::Y::zeros(n);
+        Self {
+            control,
+            projection,
+            kernel: K::new(n),
+            at: Moment { time: 0.0, since: 0.0 },
+            h: 0.0,
+            start: zeros(),
+            slope: zeros(),
+            end_slope: zeros(),
+            slope_known: false,
+            increment: zeros(),
+            trial: zeros(),
+            trial_rest: zeros(),
+            proposal: 0.0,
+            last_error: LEAST_ERROR,
+        }
+    }
+
+    /// Starts a step at the front: the slope there.
+    fn begin(&mut self, problem: &mut P, front: &Front<P::Y>, counts: &mut Counts) {
+        self.at = front.moment();
+        if self.slope_known {
+            std::mem::swap(&mut self.slope, &mut self.end_slope);
+        } else {
+            problem.rate(self.at, &front.y, &mut self.slope);
+            counts.evaluations += 1;
+        }
+        self.slope_known = false;
+        self.start.clone_from(&front.y);
+    }
+
+    /// Tries a step of length `h` from the start into `trial`.
+    #[inline]
+    fn attempt(&mut self, problem: &mut P, rest: &P::Y, h: f64, counts: &mut Counts) {
+        self.h = h;
+        self.kernel.step(problem, self.at, &self.start, &self.slope, h, &mut self.increment);
+        self.trial.clone_from(&self.start);
+        self.trial_rest.clone_from(rest);
+        self.trial.add_compensated(&self.increment, &mut self.trial_rest);
+        counts.evaluations += u64::from(K::EVALUATIONS) - 1;
+    }
+
+    /// Makes the trial the new front.
+    #[inline]
+    fn accept(&mut self, problem: &mut P, front: &mut Front<P::Y>, time: Time, counts: &mut Counts) {
+        let strayed = problem.correction(&self.trial, &mut self.increment);
+        if self.projection {
+            self.trial.add_compensated(&self.increment, &mut self.trial_rest);
+        }
+        std::mem::swap(&mut front.y, &mut self.trial);
+        std::mem::swap(&mut front.rest, &mut self.trial_rest);
+        front.time = time;
+        counts.steps += 1;
+        counts.orientation_drift = counts.orientation_drift.max(strayed);
+    }
+
+    /// A first length, from the sizes of the first and second derivative (Hairer, Nørsett, Wanner,
+    /// Solving ODEs I, §II.4).
+    fn first_length(&mut self, problem: &mut P, limits: &Limits, left: f64, counts: &mut Counts) -> f64 {
+        let size = |problem: &P, v: &P::Y, y: &P::Y| problem.error_size(y, y, v, &limits.scales) / limits.local;
+        let d1 = size(problem, &self.slope, &self.start);
+        let h0 = if d1 > 0.0 { (0.01 / (d1 * limits.local)).min(left) } else { left };
+
+        // an Euler step shows how fast the slope changes
+        self.trial.set_sum(&self.start, h0, &self.slope);
+        problem.rate(self.at.after(h0), &self.trial, &mut self.end_slope);
+        counts.evaluations += 1;
+        self.increment.set_sum(&self.end_slope, -1.0, &self.slope);
+        let d2 = size(problem, &self.increment, &self.start) / h0;
+        let steepest = d1.max(d2);
+        if steepest > 0.0 { libm::pow(0.01 / steepest, 1.0 / K::ERROR_ORDER).min(100.0 * h0) } else { left }
+    }
+
+    fn advance_controlled(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        limit: f64,
+        limits: &Limits,
+        counts: &mut Counts,
+    ) -> Result<(), FlightError> {
+        let left = front.time.until(limit);
+        if self.proposal <= 0.0 {
+            self.proposal = self.first_length(problem, limits, left, counts);
+        }
+        let mut grow = GROWTH.1;
+        for _ in 0..REFUSALS {
+            // the proposal, so that no sliver is left before the limit
+            let wanted = self.proposal.min(limits.longest);
+            let last = wanted * (1.0 + STEP_REMAINDER) >= left;
+            let h = if last {
+                left
+            } else if 2.0 * wanted > left {
+                0.5 * left
+            } else {
+                wanted
+            };
+            if h <= SHORTEST * front.time.value.abs() {
+                return Err(FlightError::StepTooShort(h));
+            }
+
+            self.attempt(problem, &front.rest, h, counts);
+            let finite = self.trial.as_ref().iter().sum::<f64>().is_finite();
+            let error = self.kernel.error(problem, &self.start, &self.trial, h, &limits.scales);
+            let size = if finite { error / limits.local } else { f64::INFINITY };
+            if size <= 1.0 {
+                let size = size.max(LEAST_ERROR);
+                let factor = CAUTION
+                    * libm::pow(size, -0.85 / K::ERROR_ORDER)
+                    * libm::pow(self.last_error, 0.2 / K::ERROR_ORDER);
+                let next = h * factor.clamp(GROWTH.0, grow);
+                // a step cut short by the limit says nothing against the length proposed before it
+                self.proposal = if h < wanted { next.max(self.proposal) } else { next };
+                self.last_error = size;
+                let time = if last { Time::new(limit) } else { front.time + h };
+                self.accept(problem, front, time, counts);
+                return Ok(());
+            }
+
+            // refused, or not a number: shorter, and no growth right after
+            counts.rejected += 1;
+            grow = 1.0;
+            let factor = if size.is_finite() { CAUTION * libm::pow(size, -1.0 / K::ERROR_ORDER) } else { GROWTH.0 };
+            self.proposal = h * factor.clamp(GROWTH.0, CAUTION);
+        }
+        Err(FlightError::StepTooShort(self.proposal))
+    }
+}
+
+impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
+    fn advance(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        limit: f64,
+        counts: &mut Counts,
+    ) -> Result<(), FlightError> {
+        self.begin(problem, front, counts);
+        match self.control {
+            Control::Step(step) => {
+                // cut or stretched by a hair so that it ends on the limit
+                let left = front.time.until(limit);
+                let last = left <= step * (1.0 + STEP_REMAINDER);
+                let h = if last { left } else { step };
+                let time = if last { Time::new(limit) } else { front.time + h };
+                self.attempt(problem, &front.rest, h, counts);
+                self.accept(problem, front, time, counts);
+                Ok(())
+            }
+            Control::Error(limits) => self.advance_controlled(problem, front, limit, &limits, counts),
+        }
+    }
+
+    fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts) {
+        if !self.slope_known {
+            problem.rate(self.at.after(self.h), &front.y, &mut self.end_slope);
+            self.slope_known = true;
+            counts.evaluations += 1;
+        }
+        let Self { at, h, start, slope, end_slope, kernel, .. } = self;
+        let step = Step { at: *at, h: *h, y0: start, k0: slope, y1: &front.y, k1: end_slope };
+        counts.evaluations += u64::from(kernel.interpolate(problem, &step, segment));
+    }
+
+    fn restart(&mut self) {
+        self.slope_known = false;
+        self.last_error = LEAST_ERROR;
+    }
+}

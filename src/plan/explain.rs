@@ -1,0 +1,104 @@
+//! The plan in words.
+
+use std::fmt::Write;
+
+use super::{FlightGroup, Plan};
+use crate::freedom::Chart;
+use crate::text::{counted, short};
+
+impl Plan {
+    /// What runs, what is left out, and why.
+    ///
+    /// ```text
+    /// Plan: 2 bodies (1 fixed), heun, h = 0.001 s
+    ///   flight 1   die: free, 13 numbers
+    ///              uniform_gravity
+    ///   pairs      die–floor: bounce, restitution 0.5
+    ///   left out   effect 2 (drag): all its coefficients are 0
+    /// ```
+    pub fn explain(&self) -> String {
+        let mut text = String::new();
+        // writing to a string cannot fail
+        let _ = self.write(&mut text);
+        text.truncate(text.trim_end().len());
+        text
+    }
+
+    fn write(&self, out: &mut String) -> std::fmt::Result {
+        let fixed = self.bodies.iter().filter(|body| body.fixed).count();
+        write!(out, "Plan: {}", counted(self.bodies.len(), "body", "bodies"))?;
+        if fixed > 0 {
+            write!(out, " ({fixed} fixed)")?;
+        }
+        write!(out, ", {}", self.method)?;
+        match (self.options.step, self.tolerance()) {
+            (Some(step), _) => writeln!(out, ", h = {} s", short(step))?,
+            (None, Some(tolerance)) => writeln!(out, ", step found for tolerance {}", short(tolerance))?,
+            (None, None) => writeln!(out)?,
+        }
+
+        for (number, group) in self.groups.iter().enumerate() {
+            self.write_group(out, number, group)?;
+        }
+        let pairs: Vec<_> =
+            self.groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| (group, pair))).collect();
+        for (i, (group, pair)) in pairs.iter().enumerate() {
+            let names = [group.members[pair.member], pair.obstacle].map(|i| self.bodies[i].name.as_str());
+            let what = match pair.material.response {
+                crate::contact::Response::Bounce => format!("bounce, restitution {}", short(pair.material.restitution)),
+                crate::contact::Response::Stick => "stick".to_owned(),
+            };
+            let finder = self.options.finder.name();
+            writeln!(
+                out,
+                "  {:<10} {}–{}: {what}; time of contact by {finder}",
+                label(i, "pairs"),
+                names[0],
+                names[1]
+            )?;
+        }
+        for (i, left) in self.left_out.iter().enumerate() {
+            writeln!(out, "  {:<10} {}: {}", label(i, "left out"), left.what, left.why)?;
+        }
+        if pairs.is_empty() {
+            let label = label(self.left_out.len(), "left out");
+            writeln!(out, "  {label:<10} contact: no two bodies can meet")?;
+        }
+        Ok(())
+    }
+
+    fn write_group(&self, out: &mut String, number: usize, group: &FlightGroup) -> std::fmt::Result {
+        let charts = self.charts(number, &[]).unwrap_or_default();
+        for (place, (&index, chart)) in group.members.iter().zip(&charts).enumerate() {
+            let body = &self.bodies[index];
+            let what = match chart {
+                Chart::Fixed => "fixed, seen by an effect".to_owned(),
+                _ => format!("{}, {} numbers", body.freedom.name(), chart.dimension()),
+            };
+            let label = if place == 0 { format!("flight {}", number + 1) } else { String::new() };
+            writeln!(out, "  {label:<10} {}: {what}", body.name)?;
+        }
+        let mut names: Vec<(&str, usize)> = Vec::new();
+        for binding in &group.bindings {
+            let name = binding.effect.name();
+            match names.iter_mut().find(|(n, _)| *n == name) {
+                Some((_, count)) => *count += 1,
+                None => names.push((name, 1)),
+            }
+        }
+        let effects: Vec<_> =
+            names.iter().map(|(name, n)| if *n == 1 { (*name).to_owned() } else { format!("{name} ×{n}") }).collect();
+        let effects = if effects.is_empty() { "nothing acts on it".to_owned() } else { effects.join(", ") };
+        writeln!(out, "  {:<10} {effects}", "")?;
+        if !group.switches.is_empty() {
+            let times: Vec<_> = group.switches.iter().map(|t| short(*t)).collect();
+            writeln!(out, "  {:<10} steps end at the switches t = {} s", "", times.join(", "))?;
+        }
+        Ok(())
+    }
+}
+
+/// The label on the first line of a block, blanks on the others.
+fn label(line: usize, name: &str) -> &str {
+    if line == 0 { name } else { "" }
+}

@@ -1,0 +1,500 @@
+//! What a scene calls for, and nothing else.
+//!
+//! Compiling checks a scene once, gives every body the coordinates of its freedom, binds effects to
+//! the bodies they act on, and leaves out what does nothing. The step loop then asks no questions.
+//! [`Plan::explain`] says what was kept, what was left out, and why.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::closest::vertex_plane::{Collider, Plane};
+use crate::contact::Material;
+use crate::effect::{AnyEffect, Target};
+use crate::error::{Error, Result};
+use crate::freedom::{Chart, Form, Freedom};
+use crate::integrator::{Control, Flight, Integration, Limits, Method, Problem, StateVector};
+use crate::mass::MassProperties;
+use crate::math::{Matrix3, Vector3, quaternion};
+use crate::scene::{Body, Orientation, RunOptions, Scene};
+use crate::shape::Shape;
+use crate::state::{BodyMotion, BodyState};
+
+mod explain;
+mod group;
+
+pub use group::Group;
+
+/// A body of the plan.
+#[derive(Debug, Clone)]
+pub struct PlannedBody {
+    /// Its name.
+    pub name: String,
+    /// Mass [kg], centre of mass (shape axes) [m], inertia about it (body axes) [kg·m²]; 0 for a
+    /// fixed body, whose mass matters to nothing.
+    pub properties: MassProperties,
+    /// How it may move.
+    pub freedom: Freedom,
+    /// Whether it stays where it is.
+    pub fixed: bool,
+    /// Mass, inertia, and the motion it starts with.
+    pub start: BodyMotion,
+    /// Largest distance of its matter from the centre of mass [m]; 0 without a shape.
+    pub radius: f64,
+}
+
+/// An effect and the bodies it acts on, as places in a group.
+#[derive(Debug, Clone)]
+pub(crate) struct Binding {
+    pub(crate) effect: Arc<AnyEffect>,
+    pub(crate) members: Vec<usize>,
+    /// Whether the bodies are seen together; else the effect acts on each alone.
+    pub(crate) together: bool,
+}
+
+impl Binding {
+    /// The motions of those members of a group that the effect acts on.
+    pub(crate) fn seen(&self, members: &[BodyMotion]) -> Vec<BodyMotion> {
+        self.members.iter().map(|&i| members[i]).collect()
+    }
+}
+
+/// Bodies that share one integrator and one clock.
+#[derive(Debug, Clone)]
+pub struct FlightGroup {
+    /// Its bodies, as places in the scene; fixed ones among them are only seen by effects.
+    pub members: Vec<usize>,
+    pub(crate) bindings: Vec<Binding>,
+    /// Times at which a load jumps [s], rising.
+    pub switches: Vec<f64>,
+    /// The moving bodies that may meet a fixed plane.
+    pub(crate) pairs: Vec<Pair>,
+}
+
+/// A moving body and a fixed half space that it may meet.
+#[derive(Debug, Clone)]
+pub(crate) struct Pair {
+    /// The body, as a place in its group.
+    pub(crate) member: usize,
+    /// The half space, as a place in the scene.
+    pub(crate) obstacle: usize,
+    pub(crate) collider: Collider,
+    pub(crate) plane: Plane,
+    pub(crate) material: Material,
+    /// Size of the pair [m], by which its tolerances are measured.
+    pub(crate) size: f64,
+}
+
+/// A scene after checking, with only what it calls for.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    scene: Scene,
+    options: RunOptions,
+    bodies: Vec<PlannedBody>,
+    groups: Vec<FlightGroup>,
+    left_out: Vec<LeftOut>,
+    method: Method,
+}
+
+/// Something that the scene names and the plan does without.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// What is left out.
+    pub what: String,
+    /// Why.
+    pub why: String,
+}
+
+/// Default tolerance of a run that names neither tolerance nor step [-].
+pub(crate) const DEFAULT_TOLERANCE: f64 = 1.0e-6;
+
+impl Scene {
+    /// Checks the scene and keeps what it calls for.
+    ///
+    /// # Errors
+    /// The first thing found wrong, naming body or effect, field and value.
+    pub fn compile(&self, options: &RunOptions) -> Result<Plan> {
+        Plan::new(self, options)
+    }
+
+    /// The plan of the scene's own run options in words: what runs, what is left out, and why.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    pub fn explain(&self) -> Result<String> {
+        Ok(self.compile(&self.run)?.explain())
+    }
+}
+
+impl Plan {
+    fn new(scene: &Scene, options: &RunOptions) -> Result<Self> {
+        options.validate()?;
+        if scene.bodies.is_empty() {
+            return Err(Error::refused("scene", "there is no body in it"));
+        }
+        let mut scene = scene.clone();
+        for shape in scene.bodies.iter_mut().filter_map(|body| body.shape.as_mut()) {
+            *shape = shape.loaded(Path::new(""))?;
+        }
+        let scene = &scene;
+        let bodies = scene.bodies.iter().map(planned).collect::<Result<Vec<_>>>()?;
+        for (index, body) in scene.bodies.iter().enumerate() {
+            if scene.bodies[..index].iter().any(|other| other.name == body.name) {
+                return Err(Error::value("scene", "body name", "one that no other body has", &body.name));
+            }
+        }
+        let mut left_out = Vec::new();
+        let groups = Grouping::new(scene, &bodies, &mut left_out)?.groups(scene, &bodies, options, &mut left_out)?;
+        let method = options.method.unwrap_or(Method::Dop853);
+        let plan = Self { scene: scene.clone(), options: options.clone(), bodies, groups, left_out, method };
+
+        // every freedom is tried once, so that a start that it does not allow is found here
+        for index in 0..plan.groups.len() {
+            plan.charts(index, &[])?;
+        }
+        Ok(plan)
+    }
+
+    /// The bodies, in the scene's order.
+    pub fn bodies(&self) -> &[PlannedBody] {
+        &self.bodies
+    }
+
+    /// The bodies that share an integrator, group by group.
+    pub fn groups(&self) -> &[FlightGroup] {
+        &self.groups
+    }
+
+    /// What the scene names and the plan does without.
+    pub fn left_out(&self) -> &[LeftOut] {
+        &self.left_out
+    }
+
+    /// The method of integration.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// How to run it.
+    pub fn options(&self) -> &RunOptions {
+        &self.options
+    }
+
+    /// The scene it was compiled from.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The tolerance that the run shall keep, if one was asked for or none of tolerance and step.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.options.tolerance.or_else(|| self.options.step.is_none().then_some(DEFAULT_TOLERANCE))
+    }
+
+    /// The form in which the orientation of free and pivoted bodies is integrated.
+    pub fn form(&self) -> Form {
+        self.method.form(self.options.orientation == Orientation::Matrix)
+    }
+
+    /// The coordinates of a group's bodies; those in `held` rest.
+    pub(crate) fn charts(&self, group: usize, held: &[usize]) -> Result<Vec<Chart>> {
+        let chart = |&index: &usize| {
+            let body = &self.bodies[index];
+            if body.fixed || held.contains(&index) {
+                return Ok(Chart::Fixed);
+            }
+            Chart::new(&body.freedom, self.form(), &body.start, &self.scene.bodies[index].place())
+        };
+        self.groups[group].members.iter().map(chart).collect()
+    }
+
+    /// The flight of a group from its start at time `t` [s], for those who advance it themselves.
+    ///
+    /// # Errors
+    /// A group that the plan does not have.
+    pub fn flight(&self, group: usize, t: f64, control: Control) -> Result<Box<dyn Flight>> {
+        let Some(spec) = self.groups.get(group) else {
+            return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
+        };
+        let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
+        self.flight_for(group, t, control, &motions, &[])
+    }
+
+    /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
+    /// rest. Where the group may meet something, steps stay short enough for the search of contacts,
+    /// which looks at the ends of a step.
+    pub(crate) fn flight_for(
+        &self,
+        group: usize,
+        t: f64,
+        control: Control,
+        motions: &[BodyMotion],
+        held: &[usize],
+    ) -> Result<Box<dyn Flight>> {
+        let charts = self.charts(group, held)?;
+        let n = charts.iter().map(Chart::dimension).sum();
+        let mut y = vec![0.0; n];
+        let mut at = 0;
+        for (chart, motion) in charts.iter().zip(motions) {
+            chart.encode(&motion.state(), &mut y[at..at + chart.dimension()]);
+            at += chart.dimension();
+        }
+
+        let control = match control {
+            Control::Error(limits) if !self.groups[group].pairs.is_empty() => {
+                let longest = limits.longest.min(self.first_step(limits.scales.time));
+                Control::Error(Limits { longest, ..limits })
+            }
+            other => other,
+        };
+
+        // single bodies have vectors of fixed length, whose loops the compiler unrolls
+        Ok(match n {
+            13 => self.integration::<[f64; 13]>(group, charts, t, control, motions, &y),
+            7 => self.integration::<[f64; 7]>(group, charts, t, control, motions, &y),
+            6 => self.integration::<[f64; 6]>(group, charts, t, control, motions, &y),
+            _ => self.integration::<Vec<f64>>(group, charts, t, control, motions, &y),
+        })
+    }
+
+    fn integration<Y: StateVector + 'static>(
+        &self,
+        group: usize,
+        charts: Vec<Chart>,
+        t: f64,
+        control: Control,
+        motions: &[BodyMotion],
+        y: &[f64],
+    ) -> Box<dyn Flight> {
+        let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
+        debug_assert_eq!(problem.dimension(), y.len());
+        let integrator = self.method.integrator(&problem, control, self.options.projection);
+        Box::new(Integration::new(problem, integrator, t, y))
+    }
+
+    /// A step that follows every body's turning and the span, from which a tolerance is worked out [s].
+    pub(crate) fn first_step(&self, length: f64) -> f64 {
+        let turning = self.bodies.iter().map(|body| body.start.angular_velocity.norm()).fold(0.0, f64::max);
+        let by_turning = if turning > 0.0 { FIRST_ANGLE / turning } else { f64::INFINITY };
+        by_turning.min(length / FIRST_STEPS)
+    }
+}
+
+/// Angle that the fastest body turns in the first try of a step [rad].
+const FIRST_ANGLE: f64 = 0.25;
+/// Fewest steps of the first try [-].
+const FIRST_STEPS: f64 = 32.0;
+
+/// Checks one body and works out its mass and its start.
+fn planned(body: &Body) -> Result<PlannedBody> {
+    body.validate()?;
+    let properties = if body.fixed {
+        MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::zeros() }
+    } else {
+        body.mass_properties()?
+    };
+    let mut start = BodyMotion::at_rest(properties.mass, properties.inertia);
+    start.orientation = quaternion::normalized(&quaternion::from_scalar_first(body.orientation));
+    start.rotation = quaternion::to_matrix(&start.orientation);
+    start.position = match (body.position, body.origin) {
+        (_, Some(origin)) => Vector3::from(origin) + start.rotation * properties.center_of_mass,
+        (position, None) => position.unwrap_or_default().into(),
+    };
+    start.angular_velocity = match (body.angular_velocity, body.angular_velocity_body) {
+        (_, Some(w)) => start.rotation * Vector3::from(w),
+        (w, None) => w.unwrap_or_default().into(),
+    };
+    start.velocity = body.velocity.map_or_else(|| freedom_velocity(&body.freedom, &start), Vector3::from);
+    let radius = match &body.shape {
+        Some(shape) if !body.fixed => shape.bounding_radius(&properties.center_of_mass),
+        _ => 0.0,
+    };
+    Ok(PlannedBody {
+        name: body.name.clone(),
+        properties,
+        freedom: body.freedom.clone(),
+        fixed: body.fixed,
+        start,
+        radius,
+    })
+}
+
+/// The velocity that a rotation about a resting point gives the centre of mass.
+fn freedom_velocity(freedom: &Freedom, start: &BodyMotion) -> Vector3 {
+    let point_body = match freedom {
+        Freedom::Free | Freedom::Planar(_) => return Vector3::zeros(),
+        Freedom::Pivot(pivot) => pivot.point_body,
+        Freedom::Axle(axle) => axle.point_body,
+    };
+    start.angular_velocity.cross(&-(start.rotation * Vector3::from(point_body)))
+}
+
+/// Which bodies belong together, and which effect acts on whom.
+struct Grouping {
+    /// For each body the first body of its group.
+    leader: Vec<usize>,
+    /// Effects that are kept, with their bodies as places in the scene.
+    bindings: Vec<Binding>,
+}
+
+impl Grouping {
+    fn new(scene: &Scene, bodies: &[PlannedBody], left_out: &mut Vec<LeftOut>) -> Result<Self> {
+        let mut leader: Vec<usize> = (0..bodies.len()).collect();
+        let mut bindings = Vec::new();
+        for (index, effect) in scene.effects.iter().enumerate() {
+            let place = scene.effect_place(index);
+            effect.as_effect().validate(&place)?;
+            let target = effect.as_effect().target();
+            let named = |names: &[String]| -> Result<Vec<usize>> {
+                names.iter().map(|name| Ok(scene.find(name, &place, "body")?.index())).collect()
+            };
+            let (members, together) = match target {
+                Target::All => ((0..bodies.len()).filter(|&i| !bodies[i].fixed).collect(), false),
+                Target::Each(names) => (named(&names)?, false),
+                Target::Together(names) => (named(&names)?, true),
+            };
+            if let Some(pair) = members.iter().enumerate().find(|(i, m)| members[..*i].contains(m)) {
+                return Err(Error::value(place, "bodies", "different from each other", &bodies[*pair.1].name));
+            }
+            if let Some(&fixed) = members.iter().find(|&&i| bodies[i].fixed && !together) {
+                return Err(Error::value(place, "body", "one that can move", &bodies[fixed].name));
+            }
+            if let Some(why) = effect.as_effect().idle() {
+                left_out.push(LeftOut { what: place, why: why.to_owned() });
+                continue;
+            }
+            if members.iter().all(|&i| bodies[i].fixed) {
+                left_out.push(LeftOut { what: place, why: "no body that it acts on can move".to_owned() });
+                continue;
+            }
+
+            // bodies that an effect sees together join one group; fixed ones stay out of it
+            if together {
+                let moving: Vec<usize> = members.iter().copied().filter(|&i| !bodies[i].fixed).collect();
+                for pair in moving.windows(2) {
+                    let (a, b) = (leader[pair[0]], leader[pair[1]]);
+                    let (first, second) = (a.min(b), a.max(b));
+                    leader.iter_mut().filter(|l| **l == second).for_each(|l| *l = first);
+                }
+            }
+            bindings.push(Binding { effect: Arc::new(effect.clone()), members, together });
+        }
+        Ok(Self { leader, bindings })
+    }
+
+    fn groups(
+        &self,
+        scene: &Scene,
+        bodies: &[PlannedBody],
+        options: &RunOptions,
+        left_out: &mut Vec<LeftOut>,
+    ) -> Result<Vec<FlightGroup>> {
+        let mut groups = Vec::new();
+        for first in (0..bodies.len()).filter(|&i| self.leader[i] == i && !bodies[i].fixed) {
+            let mut members: Vec<usize> =
+                (0..bodies.len()).filter(|&i| self.leader[i] == first && !bodies[i].fixed).collect();
+            let moving = members.clone();
+            let mut bindings = Vec::new();
+            for binding in &self.bindings {
+                let mut wanted: Vec<usize> = binding.members.clone();
+                if binding.together {
+                    if !wanted.iter().any(|i| moving.contains(i)) {
+                        continue;
+                    }
+                } else {
+                    wanted.retain(|i| moving.contains(i));
+                    if wanted.is_empty() {
+                        continue;
+                    }
+                }
+                let mut place = |i: usize| {
+                    members.iter().position(|&m| m == i).unwrap_or_else(|| {
+                        members.push(i);
+                        members.len() - 1
+                    })
+                };
+                let local = wanted.into_iter().map(&mut place).collect();
+                bindings.push(Binding { effect: binding.effect.clone(), members: local, together: binding.together });
+            }
+            let mut switches: Vec<f64> = bindings.iter().flat_map(|b| b.effect.as_effect().switches()).collect();
+            switches.sort_by(f64::total_cmp);
+            switches.dedup();
+            groups.push(FlightGroup { members, bindings, switches, pairs: Vec::new() });
+        }
+        pairs(scene, bodies, options, &mut groups, left_out)?;
+        Ok(groups)
+    }
+}
+
+/// Finds the pairs that may meet, and refuses those that this version cannot answer.
+fn pairs(
+    scene: &Scene,
+    bodies: &[PlannedBody],
+    options: &RunOptions,
+    groups: &mut [FlightGroup],
+    left_out: &mut Vec<LeftOut>,
+) -> Result<()> {
+    let solid = |i: usize| scene.bodies[i].collides && scene.bodies[i].shape.is_some();
+    for a in (0..bodies.len()).filter(|&i| solid(i)) {
+        for b in (a + 1..bodies.len()).filter(|&i| solid(i)) {
+            let what = format!("pair {}–{}", bodies[a].name, bodies[b].name);
+            if bodies[a].fixed && bodies[b].fixed {
+                left_out.push(LeftOut { what, why: "both are fixed".to_owned() });
+                continue;
+            }
+            let (body, obstacle) = if bodies[a].fixed { (b, a) } else { (a, b) };
+            let Some(Shape::HalfSpace(half_space)) = &scene.bodies[obstacle].shape else {
+                let reason = "only contact with a fixed half space can be answered; \
+                              where the two never meet, say collides = false of one";
+                return Err(Error::refused(what, reason));
+            };
+            if bodies[body].freedom != Freedom::Free {
+                let reason = format!(
+                    "contact of a {} body cannot be answered; where the two never meet, say collides = false of one",
+                    bodies[body].freedom.name()
+                );
+                return Err(Error::refused(what, reason));
+            }
+            let shape = scene.bodies[body].shape.as_ref().ok_or_else(|| Error::refused(&what, "no shape"))?;
+            let center = &bodies[body].properties.center_of_mass;
+            let Some(collider) = Collider::new(shape, center) else {
+                let reason = format!(
+                    "contact of a {} cannot be answered; where the two never meet, say collides = false of one",
+                    shape.name()
+                );
+                return Err(Error::refused(what, reason));
+            };
+            if scene.bodies[body].friction * scene.bodies[obstacle].friction > 0.0 {
+                let why = "impacts are answered without friction".to_owned();
+                left_out.push(LeftOut { what: format!("friction of {}–{}", bodies[a].name, bodies[b].name), why });
+            }
+            let plane = Plane::new(half_space, &bodies[obstacle].start);
+            let size = bodies[body].radius;
+            let coordinates = bodies[body].start.position.amax() + plane.offset.abs() + size;
+            if let Some(eps) = options.eps.filter(|eps| *eps < EPS_ROUNDING * coordinates) {
+                let allowed =
+                    format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
+                return Err(Error::value("run", "eps", allowed, eps));
+            }
+            let [a, b] = [body, obstacle].map(|i| (scene.bodies[i].restitution, scene.bodies[i].response));
+            let material = Material::of_pair(a, b);
+            for group in groups.iter_mut() {
+                if let Some(member) = group.members.iter().position(|&m| m == body) {
+                    group.pairs.push(Pair { member, obstacle, collider: collider.clone(), plane, material, size });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Rounding of a gap, in units of the coordinates it is worked out from [-]: a dozen operations.
+pub(crate) const EPS_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Reads a state as a motion of a body of the plan.
+pub(crate) fn motion_of(body: &PlannedBody, state: &BodyState) -> BodyMotion {
+    let mut motion = body.start;
+    if body.fixed {
+        return motion;
+    }
+    motion.set_state(state, &body.properties.inv_inertia());
+    motion
+}

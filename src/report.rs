@@ -1,0 +1,106 @@
+//! What ran, what it cost, and how far the result is to be trusted.
+
+use std::fmt;
+
+use crate::integrator::{Control, Counts, Method};
+use crate::plan::Plan;
+use crate::text::short;
+
+/// Time spent by stage [s of the thread's clock].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Seconds {
+    /// Checking the scene and making the plan.
+    pub compile: f64,
+    /// The run whose result is kept.
+    pub run: f64,
+    /// Other runs, from which its error is estimated.
+    pub estimate: f64,
+}
+
+/// What ran, what it cost, and how far the result is to be trusted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// Method of integration.
+    pub method: Method,
+    /// What decided the length of the steps; none where nothing was integrated.
+    pub control: Option<Control>,
+    /// Tolerance asked for [-].
+    pub tolerance: Option<f64>,
+    /// Estimated error of the result [-]: the larger of position error over `length_scale` and
+    /// orientation error in radians, over all samples and bodies up to the horizon.
+    pub error_estimate: Option<f64>,
+    /// How the error was estimated.
+    pub estimated_by: &'static str,
+    /// Whether the estimate is within the tolerance over the whole span.
+    pub met: Option<bool>,
+    /// Time up to which the estimate is within the tolerance [s]; the end, if none was asked for.
+    pub horizon: f64,
+    /// Length that position errors are measured by [m].
+    pub length_scale: f64,
+    /// Steps, evaluations, drift of the orientation.
+    pub counts: Counts,
+    /// Impacts answered.
+    pub impacts: u64,
+    /// Rounds of the finder, over all impacts.
+    pub impact_iterations: u64,
+    /// Time spent by stage.
+    pub seconds: Seconds,
+}
+
+impl Report {
+    /// A report of nothing done yet.
+    pub(crate) fn new(plan: &Plan) -> Self {
+        Self {
+            method: plan.method(),
+            control: None,
+            tolerance: plan.tolerance(),
+            error_estimate: None,
+            estimated_by: "not estimated",
+            met: None,
+            horizon: 0.0,
+            length_scale: 0.0,
+            counts: Counts::default(),
+            impacts: 0,
+            impact_iterations: 0,
+            seconds: Seconds::default(),
+        }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Report: {}", self.method)?;
+        match self.control {
+            Some(Control::Step(step)) => writeln!(f, ", h = {} s", short(step))?,
+            Some(Control::Error(limits)) => writeln!(f, ", error of a step ≤ {}", short(limits.local))?,
+            None => writeln!(f)?,
+        }
+        match self.error_estimate {
+            Some(error) => write!(f, "  error      {} (estimate: {})", short(error), self.estimated_by)?,
+            None => write!(f, "  error      {}", self.estimated_by)?,
+        }
+        match (self.tolerance, self.met) {
+            (Some(tolerance), Some(true)) => writeln!(f, ", tolerance {} met", short(tolerance))?,
+            (Some(tolerance), Some(false)) => {
+                writeln!(f, ", tolerance {} NOT met after t = {} s", short(tolerance), short(self.horizon))?;
+            }
+            _ => writeln!(f)?,
+        }
+        writeln!(f, "  scale      positions over {} m, orientations in rad", short(self.length_scale))?;
+        writeln!(
+            f,
+            "  drift      orientation {} off its sphere before projection",
+            short(self.counts.orientation_drift)
+        )?;
+        write!(f, "  work       {} steps, {} evaluations", self.counts.steps, self.counts.evaluations)?;
+        if self.counts.rejected > 0 {
+            write!(f, ", {} steps refused", self.counts.rejected)?;
+        }
+        if self.impacts > 0 {
+            write!(f, ", {} impacts ({} rounds of the finder)", self.impacts, self.impact_iterations)?;
+        }
+        writeln!(f)?;
+        let Seconds { compile, run, estimate } = self.seconds;
+        write!(f, "  time       {} s run, {} s estimate, {} s compile", short(run), short(estimate), short(compile))
+    }
+}

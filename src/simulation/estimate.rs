@@ -1,0 +1,75 @@
+//! The error of a result, by comparing two runs of it.
+
+use crate::math::quaternion;
+use crate::state::BodyState;
+use crate::trajectory::Trajectory;
+
+/// Two runs of one scene, one finer than the other.
+///
+/// ```text
+/// error of the finer run ≈ |fine − coarse| / (gain − 1) + rounding        gain = coarse error/fine error (Richardson)
+/// ```
+///
+/// The formula holds where both runs are fine enough for the error to fall as the gain says. Where
+/// they are not, the difference is large and the formula errs on either side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Comparison {
+    /// Largest estimated error over all samples and bodies [-].
+    pub(super) worst: f64,
+    /// The same over the samples up to the horizon.
+    pub(super) within_horizon: f64,
+    /// The last sample up to which the estimate is within the tolerance [s].
+    pub(super) horizon: f64,
+}
+
+impl Comparison {
+    pub(super) fn new(fine: &Trajectory, coarse: &Trajectory, gain: f64, rounding: f64, tolerance: Option<f64>) -> Self {
+        let divisor = (gain - 1.0).max(1.0);
+        let tolerance = tolerance.unwrap_or(f64::INFINITY);
+        let mut comparison = Self { worst: 0.0, within_horizon: 0.0, horizon: fine.end() };
+        let common = fine.times().len().min(coarse.times().len());
+        let mut lost = common < fine.times().len();
+        for sample in 0..common {
+            let error = difference(fine.states(sample), coarse.states(sample), fine.report().length_scale) / divisor + rounding;
+            comparison.worst = comparison.worst.max(error);
+            if error > tolerance && !lost {
+                lost = true;
+                comparison.horizon = fine.times()[sample.saturating_sub(1)];
+            } else if !lost || comparison.worst <= tolerance {
+                comparison.within_horizon = comparison.worst;
+            }
+        }
+        if common < fine.times().len() {
+            comparison.worst = f64::INFINITY;
+            comparison.horizon = comparison.horizon.min(fine.times()[common.saturating_sub(1)]);
+        }
+        comparison
+    }
+}
+
+/// Largest difference between the states of a scene's bodies [-]: of positions over `scale` [m], of
+/// orientations in radians.
+pub(crate) fn difference(a: &[BodyState], b: &[BodyState], scale: f64) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| {
+            let place = (a.position - b.position).norm() / scale;
+            place.max(quaternion::angle_between(&a.orientation, &b.orientation))
+        })
+        .fold(0.0, f64::max)
+}
+
+/// The length that position errors are measured by [m]: the larger of the largest body and the
+/// largest extent of a path, unless the options name one.
+pub(crate) fn length_scale(run: &Trajectory) -> f64 {
+    if let Some(given) = run.plan().options().length_scale {
+        return given;
+    }
+    let mut scale = 0.0_f64;
+    for (index, body) in run.plan().bodies().iter().enumerate().filter(|(_, body)| !body.fixed) {
+        let start = run.states(0)[index].position;
+        let path = (0..run.times().len()).map(|s| (run.states(s)[index].position - start).norm());
+        scale = path.fold(scale.max(body.radius), f64::max);
+    }
+    if scale > 0.0 { scale } else { 1.0 }
+}

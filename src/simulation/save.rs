@@ -1,0 +1,131 @@
+//! A running state in a file: saved, loaded, and going on with the same bits.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{Lane, Simulation};
+use crate::error::{Error, Result};
+use crate::integrator::{Control, Counts, Front, Segment};
+use crate::scene::{RunOptions, Scene, Span};
+use crate::state::BodyMotion;
+use crate::trajectory::Event;
+
+/// What a saved state holds; JSON, in which every `f64` is written so that it reads back to the bit.
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Saved {
+    bryla: String,
+    scene: Scene,
+    options: RunOptions,
+    time: f64,
+    lanes: Vec<SavedLane>,
+    events: Vec<Event>,
+    iterations: u64,
+}
+
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedLane {
+    front: Front<Vec<f64>>,
+    segment: Segment,
+    counts: Counts,
+    earlier: Counts,
+    held: Vec<usize>,
+    motions: Vec<BodyMotion>,
+}
+
+/// Version of the file's layout.
+const VERSION: &str = "state 2";
+
+impl Simulation {
+    /// Writes the running state to a file, conventionally `.bryla`.
+    ///
+    /// # Errors
+    /// A scene with user effects, and a file that cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        // the scene says what cannot be written
+        self.plan.scene().to_text(crate::scene::file::Format::Json)?;
+        let lanes = self.lanes.iter().map(|lane| {
+            SavedLane {
+                front: lane.flight.saved_front(),
+                segment: lane.flight.segment().clone(),
+                counts: *lane.flight.counts(),
+                earlier: lane.earlier,
+                held: lane.held.clone(),
+                motions: lane.motions.clone(),
+            }
+        });
+        let saved = Saved {
+            bryla: VERSION.to_owned(),
+            scene: self.plan.scene().clone(),
+            options: self.plan.options().clone(),
+            time: self.time,
+            lanes: lanes.collect(),
+            events: self.events.clone(),
+            iterations: self.iterations,
+        };
+        let path = path.as_ref();
+        let text = serde_json::to_string(&saved).map_err(|error| file_error(path, &error))?;
+        fs::write(path, text).map_err(|error| file_error(path, &error))
+    }
+
+    /// Loads a running state; it goes on with the same bits as the run that was saved.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is no saved state.
+    pub fn resume(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let text = fs::read_to_string(path).map_err(|error| file_error(path, &error))?;
+        let saved: Saved = serde_json::from_str(&text).map_err(|error| file_error(path, &error))?;
+        if saved.bryla != VERSION {
+            return Err(file_error(path, &format!("not a saved state of this version ({VERSION}): {}", saved.bryla)));
+        }
+        let plan = Arc::new(saved.scene.compile(&saved.options)?);
+        let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
+        let mut simulation = Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, Control::Step(step))?;
+        if saved.lanes.len() != simulation.lanes.len() {
+            return Err(file_error(path, &"its state does not belong to its scene"));
+        }
+        for (group, (lane, saved)) in simulation.lanes.iter_mut().zip(saved.lanes).enumerate() {
+            lane.continue_from(&plan, group, step, saved)
+                .ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
+        }
+        simulation.events = saved.events;
+        simulation.iterations = saved.iterations;
+        Ok(simulation)
+    }
+}
+
+impl Lane {
+    /// Takes over a saved lane; none where its numbers do not fit.
+    fn continue_from(
+        &mut self,
+        plan: &crate::plan::Plan,
+        group: usize,
+        step: f64,
+        saved: SavedLane,
+    ) -> Option<Result<()>> {
+        if saved.motions.len() != self.motions.len() {
+            return None;
+        }
+        match plan.flight_for(group, saved.front.time.value, Control::Step(step), &saved.motions, &saved.held) {
+            Ok(flight) => self.flight = flight,
+            Err(error) => return Some(Err(error)),
+        }
+        let n = self.flight.saved_front().y.len();
+        let terms = saved.segment.coefficients.len();
+        if saved.front.y.len() != n || saved.front.rest.len() != n || ![0, n].contains(&saved.segment.dimension) || (n > 0 && terms % n != 0) {
+            return None;
+        }
+        self.flight.resume(&saved.front, saved.segment, saved.counts);
+        self.earlier = saved.earlier;
+        self.held = saved.held;
+        self.motions = saved.motions;
+        Some(Ok(()))
+    }
+}
+
+fn file_error(path: &Path, reason: &dyn ToString) -> Error {
+    Error::File { path: path.display().to_string(), reason: reason.to_string() }
+}

@@ -1,0 +1,192 @@
+//! The lecture's first collision: bodies against half spaces.
+
+use bryla::math::Vector3;
+use bryla::simulation::Failure;
+use bryla::{
+    Body, Cuboid, Finder, Freedom, HalfSpace, Method, Polyhedron, Response, RunError, RunOptions, Scene, Sphere,
+    Trajectory, UniformGravity,
+};
+
+/// A floor at z = 0 under gravity, and a body above it.
+fn floor_and(body: Body) -> Scene {
+    let mut scene = Scene::new();
+    scene.add(Body::new("floor", HalfSpace::new([0.0, 0.0, 1.0], 0.0)).fixed()).unwrap();
+    scene.add(body).unwrap();
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -10.0]));
+    scene
+}
+
+fn ball(restitution: f64) -> Body {
+    Body::new("ball", Sphere::new(0.1)).mass(2.0).position([0.0, 0.0, 5.1]).restitution(restitution)
+}
+
+fn options() -> RunOptions {
+    RunOptions::method(Method::Rk4).step(1e-2).estimate(false)
+}
+
+fn broken(scene: &Scene, end: f64) -> (Failure, Trajectory) {
+    match scene.run(0.0..end, &options()).unwrap_err() {
+        RunError::Simulation(error) => (error.kind.clone(), *error.trajectory.clone().unwrap()),
+        RunError::Input(error) => panic!("{error}"),
+    }
+}
+
+#[test]
+fn a_ball_bounces_at_the_times_and_heights_of_free_fall() {
+    // falls 5 m in 1 s to 10 m/s; each bounce leaves e times the speed, so bounce k comes 2 eᵏ s after bounce k−1
+    let e = 0.8;
+    for finder in [Finder::Bisection, Finder::Secant] {
+        let run = floor_and(ball(e)).run(0.0..5.0, &options().finder(finder)).unwrap();
+        let (mut time, mut speed) = (1.0, 10.0);
+        assert_eq!(run.events().len(), 4);
+        for event in run.events() {
+            // the gap accepted is 1e-12 of the body's size: early by 1e-13 m / speed, and rounding of 5 m
+            assert!((event.time - time).abs() < 1e-14 * 10.0, "{}: {} against {time}", finder.name(), event.time);
+            assert!((event.velocity[1].z - e * speed).abs() < 1e-12 * speed);
+            assert!((event.impulse.z - 2.0 * (1.0 + e) * speed).abs() < 1e-12 * 36.0);
+            assert!((event.energy_lost - (1.0 - e * e) * speed * speed).abs() < 1e-12 * 100.0);
+            assert_eq!(event.features, "ball");
+            speed *= e;
+            time += 2.0 * speed / 10.0;
+        }
+        assert!(run.energy().unwrap().drift() < 1e-11);
+    }
+}
+
+#[test]
+fn the_secant_takes_fewer_rounds_than_bisection() {
+    let rounds = |finder| {
+        let run = floor_and(ball(0.8)).run(0.0..5.0, &options().finder(finder)).unwrap();
+        run.report().impact_iterations
+    };
+    let (bisection, secant) = (rounds(Finder::Bisection), rounds(Finder::Secant));
+    assert!(2 * secant < bisection, "{secant} against {bisection}");
+}
+
+#[test]
+fn a_cube_that_lands_flat_never_turns() {
+    let cube = Body::new("cube", Cuboid::new([0.1; 3])).density(500.0).position([0.3, -0.2, 1.0]).restitution(1.0);
+    let run = floor_and(cube).run(0.0..5.0, &options()).unwrap();
+    assert!(run.events().len() > 4);
+    for event in run.events() {
+        assert_eq!(event.features, "centroid of vertices 0, 1, 2, 3");
+        assert!(event.angular_velocity[1].norm() < 1e-12 * 4.0 / 0.1);
+    }
+    assert!(run.energy().unwrap().drift() < 1e-11 * 40.0);
+}
+
+#[test]
+fn a_polyhedron_bounces_as_the_cuboid_it_is() {
+    let cuboid = Cuboid::new([0.1, 0.2, 0.15]);
+    let (x, y, z) = (0.1, 0.2, 0.15);
+    let vertices: Vec<[f64; 3]> = (0..8)
+        .map(|i| [if i & 1 == 0 { -x } else { x }, if i & 2 == 0 { -y } else { y }, if i & 4 == 0 { -z } else { z }])
+        .collect();
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let polyhedron = Polyhedron::new(vertices, faces.map(|f| f.to_vec()));
+    let run = |body: Body| {
+        let body = body.density(500.0).position([0.0, 0.0, 1.0]).angular_velocity([1.0, 2.0, -0.5]).restitution(0.7);
+        floor_and(body).run(0.0..0.8, &options()).unwrap()
+    };
+    let (a, b) = (run(Body::new("box", cuboid)), run(Body::new("box", polyhedron)));
+    assert!(!a.events().is_empty());
+    for (a, b) in a.events().iter().zip(b.events()) {
+        assert_eq!(a.features, b.features);
+        assert!((a.time - b.time).abs() < 1e-12 && (a.impulse - b.impulse).norm() < 1e-9 * a.impulse.norm());
+    }
+}
+
+#[test]
+fn an_elastic_tumbling_box_keeps_its_energy_through_many_bounces() {
+    let body = Body::new("box", Cuboid::new([0.1, 0.2, 0.15])).density(500.0).position([0.0, 0.0, 1.5]);
+    let scene = floor_and(body.angular_velocity([1.0, 2.0, -0.5]).restitution(1.0));
+    let run = scene.run(0.0..5.0, &options().step(1e-3)).unwrap();
+    assert!(run.events().len() >= 8, "{}", run.events().len());
+    // truncation of the method between bounces, h = 1e-3 and ω of 20 rad/s: some 1e-9 of 90 J
+    assert!(run.energy().unwrap().drift() < 1e-6, "{:e}", run.energy().unwrap().drift());
+    // never below the floor by more than the accepted gap, at any sample
+    for sample in 0..run.times().len() {
+        let motion = run.motions(sample)[1];
+        let lowest =
+            Cuboid::new([0.1, 0.2, 0.15]).vertices().unwrap().iter().map(|v| motion.point(v).z).fold(9.0, f64::min);
+        assert!(lowest > -1e-6, "{lowest:e} at {}", run.times()[sample]);
+    }
+}
+
+#[test]
+fn a_body_that_sticks_stays_where_it_touched() {
+    let body =
+        Body::new("dart", Cuboid::new([0.1, 0.05, 0.05])).mass(0.2).position([0.0, 0.0, 2.0]).velocity([1.0, 0.0, 0.0]);
+    let scene = floor_and(body.angular_velocity([0.0, 3.0, 0.0]).response(Response::Stick));
+    let run = scene.run(0.0..2.0, &options()).unwrap();
+    let [event] = run.events() else { panic!("{} events", run.events().len()) };
+    let last = run.motions(run.times().len() - 1)[1];
+    assert_eq!((last.velocity, last.angular_velocity), (Vector3::zeros(), Vector3::zeros()));
+    let at_touch = run.at(event.time).unwrap()[1];
+    assert!((last.position - at_touch.position).norm() < 1e-15);
+    // everything it had is lost: the balance of the run stays
+    assert!((event.energy_lost - 0.5 * 0.2 * event.velocity[0].norm_squared()).abs() > 0.0);
+    assert!(run.energy().unwrap().drift() < 1e-9, "{:e}", run.energy().unwrap().drift());
+}
+
+#[test]
+fn bounces_that_accumulate_end_in_a_named_error_with_the_run_so_far() {
+    // e = 0.5: falls 1 s, then 2 (0.5 + 0.25 + …) = 2 s more: at rest at t = 3 s
+    let (failure, run) = broken(&floor_and(ball(0.5)), 4.0);
+    assert!(matches!(failure, Failure::AccumulatingImpacts(_)), "{failure}");
+    assert!((run.end() - 3.0).abs() < 1e-5, "{}", run.end());
+    assert!(run.events().len() > 15);
+    assert!(run.times().iter().all(|&t| t <= run.end()) && run.times().len() > 140);
+
+    // a body that does not rebound at all rests at once
+    let (failure, run) = broken(&floor_and(ball(0.0)), 4.0);
+    assert!(
+        matches!(failure, Failure::AccumulatingImpacts(_)) && (run.end() - 1.0).abs() < 1e-2,
+        "{failure} at {}",
+        run.end()
+    );
+}
+
+#[test]
+fn a_body_that_starts_in_the_floor_is_refused_with_its_depth() {
+    let (failure, _) = broken(&floor_and(ball(0.5).position([0.0, 0.0, 0.07])), 1.0);
+    assert!(matches!(failure, Failure::Overlap(depth) if (depth - 0.03).abs() < 1e-15), "{failure}");
+}
+
+#[test]
+fn contacts_that_cannot_be_answered_are_refused_before_running() {
+    let refusal = |body: Body| floor_and(body).compile(&options()).unwrap_err().to_string();
+    let cube = || Body::new("cube", Cuboid::new([0.1; 3])).mass(1.0).position([0.0, 0.0, 1.0]);
+    assert_eq!(
+        refusal(cube().freedom(Freedom::planar([0.0, 1.0, 0.0]))),
+        "pair floor–cube: contact of a planar body cannot be answered; where the two never meet, say collides = false of one"
+    );
+    assert_eq!(
+        refusal(Body::new("can", bryla::Cylinder::new(0.1, 0.2)).mass(1.0)),
+        "pair floor–can: contact of a cylinder cannot be answered; where the two never meet, say collides = false of one"
+    );
+    let mut two = floor_and(cube());
+    two.add(Body::new("other", Sphere::new(0.1)).mass(1.0).position([1.0, 0.0, 1.0])).unwrap();
+    assert_eq!(
+        two.compile(&options()).unwrap_err().to_string(),
+        "pair cube–other: only contact with a fixed half space can be answered; where the two never meet, say collides = false of one"
+    );
+    assert!(floor_and(cube().freedom(Freedom::planar([0.0, 1.0, 0.0])).collides(false)).compile(&options()).is_ok());
+}
+
+#[test]
+fn a_tilted_plane_is_a_plane() {
+    // the same fall seen in turned axes: normal and gravity turn together
+    let q = [0.8, 0.1, -0.5, 0.316227766016838];
+    let turn = bryla::math::quaternion::normalized(&bryla::math::quaternion::from_scalar_first(q));
+    let rotate = |v: Vector3| -> [f64; 3] { bryla::math::quaternion::rotate(&turn, &v).into() };
+    let mut scene = Scene::new();
+    // the offset is along the normal as given: (0, 0, 2) at 6 is a plane 3 up
+    scene.add(Body::new("wall", HalfSpace::new([0.0, 0.0, 2.0], 6.0)).orientation(q).fixed()).unwrap();
+    let ball =
+        Body::new("ball", Sphere::new(0.1)).mass(2.0).position(rotate(Vector3::new(0.0, 0.0, 8.1))).restitution(0.8);
+    scene.add(ball).unwrap();
+    scene.add_effect(UniformGravity::new(rotate(Vector3::new(0.0, 0.0, -10.0))));
+    let run = scene.run(0.0..2.0, &options()).unwrap();
+    assert!((run.events()[0].time - 1.0).abs() < 1e-12);
+}

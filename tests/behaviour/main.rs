@@ -1,0 +1,41 @@
+//! What bryla promises, as sentences. Each test says where its truth and its tolerance come from.
+
+mod accuracy;
+mod bad_input;
+mod collision;
+mod effects;
+mod files;
+mod freedoms;
+mod layers;
+mod order;
+mod promises;
+
+use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};
+
+/// A free body without symmetry: three different moments, turning about no principal axis.
+fn free_body() -> Scene {
+    let mut scene = Scene::new();
+    let inertia = [[0.8, 0.0, 0.0], [0.0, 1.5, 0.0], [0.0, 0.0, 2.1]];
+    let body = Body::with_inertia("body", 2.0, inertia).velocity([0.3, -0.2, 0.5]);
+    scene.add(body.orientation([0.8, 0.1, -0.5, 0.316227766016838]).angular_velocity([1.1, -0.7, 0.9])).unwrap();
+    scene
+}
+
+/// Runs with a method and a step, without an estimate.
+fn run(scene: &Scene, end: f64, method: Method, step: f64) -> Trajectory {
+    scene.run(0.0..end, &RunOptions::method(method).step(step).estimate(false)).unwrap()
+}
+
+/// State of the first body at the end.
+fn last(run: &Trajectory) -> BodyState {
+    run.states(run.times().len() - 1)[0]
+}
+
+/// Difference of two states: position [m], orientation [rad], momenta, whichever is largest.
+fn distance(a: &BodyState, b: &BodyState) -> f64 {
+    (a.position - b.position)
+        .norm()
+        .max(bryla::math::quaternion::angle_between(&a.orientation, &b.orientation))
+        .max((a.linear_momentum - b.linear_momentum).norm())
+        .max((a.angular_momentum - b.angular_momentum).norm())
+}

@@ -1,0 +1,70 @@
+//! The order of every method, on problems without symmetry.
+
+use super::{distance, free_body, last, run};
+use bryla::{Method, Orientation, RunOptions, Scene, Wrench};
+
+/// The free body, driven by a torque and a force that oscillate, at a point off the centre of mass.
+fn driven_body() -> Scene {
+    let mut scene = free_body();
+    let wrench = Wrench::new("body", [0.4, -0.3, 0.6], [0.5, 0.2, -0.4]).point([0.1, 0.3, -0.2]);
+    scene.add_effect(wrench.frame(bryla::Frame::Body).oscillating(1.7, 0.3));
+    scene
+}
+
+/// The slope is measured where the error lies between 1e3 times the rounding of the run and 1e-2.
+const LARGEST_ERROR: f64 = 1e-2;
+const SMALLEST_ERROR: f64 = 1e-11;
+
+#[test]
+fn halving_the_step_divides_the_error_by_two_to_the_order() {
+    let span = 4.0;
+    for (name, scene) in [("free", free_body()), ("driven", driven_body())] {
+        // truth: the method of order 4 with a step of 2⁻¹³, error about 1e-15 + rounding
+        let truth = last(&run(&scene, span, Method::Rk4, span / 32768.0));
+        for &method in Method::ALL {
+            for matrix in [Orientation::Quaternion, Orientation::Matrix] {
+                if matrix == Orientation::Matrix && method.in_body_axes() {
+                    continue;
+                }
+                let error = |n: u32| {
+                    let options =
+                        RunOptions::method(method).step(span / f64::from(n)).estimate(false).orientation(matrix);
+                    distance(&last(&scene.run(0.0..span, &options).unwrap()), &truth)
+                };
+                let errors: Vec<_> = (4..17).map(|k| error(1 << k)).collect();
+                let slopes: Vec<_> = errors
+                    .windows(2)
+                    .filter(|e| e[0] <= LARGEST_ERROR && e[1] >= SMALLEST_ERROR)
+                    .map(|e| (e[0] / e[1]).log2())
+                    .collect();
+                assert!(slopes.len() >= 2, "{method} on the {name} body: too few errors in the window: {errors:?}");
+                // each slope of the low orders; of the high ones, whose window holds two or three, their mean
+                let order = f64::from(method.order());
+                let (low, width) = if method.order() <= 4 {
+                    (slopes.iter().copied().fold(f64::INFINITY, f64::min), 0.1)
+                } else {
+                    (slopes.iter().sum::<f64>() / slopes.len() as f64, 0.3)
+                };
+                assert!(low >= order - width, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_never_straddles_a_switch_so_the_order_survives_it() {
+    // two switches at times that no step of a uniform lattice meets
+    let mut scene = free_body();
+    let schedule = [(0.0, 1.0), (1.2345678, -0.7), (2.3456789, 0.0)];
+    scene.add_effect(bryla::Thruster::new("body", [0.1, 0.4, -0.2], [0.8, 0.3, 0.5]).schedule(schedule));
+    let truth = last(&run(&scene, 3.0, Method::Rk4, 3.0 / 32768.0));
+    for &method in Method::ALL {
+        let error = |n: u32| distance(&last(&run(&scene, 3.0, method, 3.0 / f64::from(n))), &truth);
+        // the steps before the switches differ from the others, which blurs the slope of one halving; three
+        // halvings from the first step whose error the order can bring down without reaching rounding
+        let order = f64::from(method.order());
+        let coarse = (3..9).map(|k| 1 << k).find(|&n| error(n) < 1e-2).unwrap();
+        let slope = (error(coarse) / error(8 * coarse)).log2() / 3.0;
+        assert!(slope >= order - 0.3 || error(8 * coarse) < SMALLEST_ERROR, "{method}: {slope:.2} from {coarse}");
+    }
+}
