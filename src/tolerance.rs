@@ -34,3 +34,24 @@ pub const IMPACT_GAP: f64 = 1.0e-12;
 /// How far above the lowest a vertex may be to share its impact, as a fraction of the size of the body
 /// [-]. It decides whether a landing counts as flat: a tilt below it does.
 pub const TOUCH_GAP: f64 = 1.0e-9;
+
+/// How far from one plane the vertices of a polygonal face may lie, as a fraction of the body's radius
+/// [-]: the corners of a turned box, each rounded to `ε/2`, stray by a few ε. Larger: near-coplanar
+/// facets become one face, and its features are reported for all of them. Smaller: a turned box falls
+/// into triangles. Distances do not depend on it.
+pub const FACE_FLATNESS: f64 = 8.0 * f64::EPSILON;
+
+/// Largest coordinate of a polyhedron [m]: products of six coordinates stay far below overflow.
+pub const COORDINATE_MAX: f64 = 1.0e30;
+
+/// Smallest size of a polyhedron that is not a point [m]: exact signs of volumes stay above underflow.
+pub const COORDINATE_MIN: f64 = 1.0e-30;
+
+/// How far the bounds of an answer may be apart beyond what the rounding of the coordinates costs, as a
+/// fraction of the pair's size [-]. Wider answers are repeated in double-double. Larger: fewer repeats,
+/// wider intervals. Smaller: more repeats.
+pub const CERTIFICATE_SLACK: f64 = 6.0 * f64::EPSILON;
+
+/// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
+/// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.
+pub const SEARCH_GAP: f64 = 2.0 * f64::EPSILON;

@@ -22,10 +22,13 @@
 mod capsule;
 mod compound;
 mod cone;
+pub mod convex_polygon;
+pub mod convex_polyhedron;
 mod cuboid;
 mod cylinder;
 mod ellipsoid;
 mod half_space;
+pub mod hull;
 mod mesh;
 mod polyhedron;
 mod sphere;

@@ -1,0 +1,63 @@
+//! What accuracy costs: every scene of the catalogue, every method, every step; error and time of the
+//! same run. Writes `benches/results/work_precision.csv`.
+//!
+//! `cargo bench --all-features --bench work_precision [-- SCENE …]`
+
+use std::fmt::Write;
+use std::process::Command;
+
+use bryla::compare::CompareOptions;
+use bryla::{Method, RunOptions, catalogue};
+
+/// Steps of each method, as halvings of the span's thousandth part, from 8 times as long on.
+const HALVINGS: i32 = 9;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let asked: Vec<_> = std::env::args().skip(1).filter(|arg| !arg.starts_with('-')).collect();
+    let said = |program: &str, args: &[&str]| {
+        let output = Command::new(program).args(args).output().ok()?;
+        Some(String::from_utf8_lossy(&output.stdout).trim().replace(',', " "))
+    };
+    let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split(':').nth(1)?.trim().replace(',', " "))
+    });
+    let processor = processor.unwrap_or_else(|| std::env::consts::ARCH.to_owned());
+    let compiler = said("rustc", &["--version"]).unwrap_or_default();
+    let date = said("date", &["-u", "+%Y-%m-%d"]).unwrap_or_default();
+
+    let mut csv = "scene,method,step_s,error,evaluations,steps,seconds_min,seconds_median,cpu,rustc,date\n".to_owned();
+    for name in catalogue::NAMES {
+        if !asked.is_empty() && !asked.iter().any(|a| a == name) {
+            continue;
+        }
+        let scene = catalogue::scene(name).ok_or("a name without a scene")??;
+        let span = scene.run.t_span.ok_or("a scene without a span")?;
+        let unit = (span[1] - span[0]) / 1000.0;
+        let steps: Vec<f64> = (0..HALVINGS).map(|k| 8.0 * unit / f64::from(1 << k)).collect();
+        for &method in Method::ALL {
+            let options = CompareOptions {
+                methods: vec![method],
+                steps: steps.clone(),
+                repeats: 3,
+                run: RunOptions { method: None, step: None, ..scene.run.clone() },
+            };
+            // a method that the scene does not allow, such as the closed form of what has none
+            let Ok(table) = scene.compare(span, &options) else { continue };
+            for row in &table.rows {
+                let error = row.error.map(|e| format!("{e:e}")).unwrap_or_default();
+                writeln!(
+                    csv,
+                    "{name},{},{:e},{error},{},{},{:e},{:e},{processor},{compiler},{date}",
+                    row.method, row.step, row.evaluations, row.steps, row.seconds_min, row.seconds_median
+                )?;
+            }
+            let least = table.rows.iter().filter_map(|row| row.error).fold(f64::INFINITY, f64::min);
+            println!("{name:<16} {:<20} least error {least:.1e} against {}", method.name(), table.reference);
+        }
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/results/work_precision.csv");
+    std::fs::write(path, csv)?;
+    println!("written: {path}");
+    Ok(())
+}
