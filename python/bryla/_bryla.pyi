@@ -1343,11 +1343,11 @@ class Trajectory:
 
     @property
     def reaction_force(self) -> _Array:
-        """Force with which its freedom holds each body, world axes [N]: array (samples, bodies, 3)."""
+        """Force with which the freedom holds each body, world axes [N]: array (samples, bodies, 3)."""
 
     @property
     def reaction_torque(self) -> _Array:
-        """Torque about each centre of mass with which the freedom holds, world axes [N·m]: array (samples, bodies, 3)."""
+        """Torque of the freedom about each centre of mass, world axes [N·m]: array (samples, bodies, 3)."""
 
     @property
     def events(self) -> list[Event]:
@@ -1446,11 +1446,11 @@ class States:
 
     @property
     def reaction_force(self) -> _Array:
-        """Force with which its freedom holds each body, world axes [N]: array ([times,] [bodies,] 3)."""
+        """Force with which the freedom holds each body, world axes [N]: array ([times,] [bodies,] 3)."""
 
     @property
     def reaction_torque(self) -> _Array:
-        """Torque about each centre of mass with which the freedom holds, world axes [N·m]: array ([times,] [bodies,] 3)."""
+        """Torque of the freedom about each centre of mass, world axes [N·m]: array ([times,] [bodies,] 3)."""
 
     def __getitem__(self, name: str, /) -> States: ...
     def __eq__(self, value: object, /) -> bool: ...

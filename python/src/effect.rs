@@ -383,6 +383,7 @@ impl PyUserEffect {
     }
 
     /// Refuses: a function is code.
+    #[expect(clippy::unused_self, reason = "pickle calls it as a method")]
     fn __reduce__(&self) -> Result<()> {
         Err(bryla::Error::refused("user_effect", "a user effect is code and cannot be pickled").into())
     }
@@ -445,13 +446,11 @@ impl<'py> FromPyObject<'_, 'py> for Pair {
 
     fn extract(obj: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         let read = || -> PyResult<Vec<Numbers<3>>> { obj.try_iter()?.map(|item| item?.extract()).collect() };
-        match read().as_deref() {
-            Ok(&[Numbers(force), Numbers(torque)]) => Ok(Self(force.into(), torque.into())),
-            _ => {
-                let message = format!("a pair (force, torque) of 3 numbers each wanted, got {}", obj.repr()?);
-                Err(PyTypeError::new_err(message))
-            }
+        if let Ok(&[Numbers(force), Numbers(torque)]) = read().as_deref() {
+            return Ok(Self(force.into(), torque.into()));
         }
+        let message = format!("a pair (force, torque) of 3 numbers each wanted, got {}", obj.repr()?);
+        Err(PyTypeError::new_err(message))
     }
 }
 

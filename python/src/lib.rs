@@ -1,5 +1,10 @@
 //! Python bindings of bryla: one file per core module, whose methods forward and convert.
 
+#![allow(clippy::doc_markdown, reason = "the docs are Python's docstrings, which show backticks as they are")]
+#![allow(clippy::doc_link_with_quotes, reason = "the docs are Python's docstrings, in which run[\"die\"] is code")]
+#![allow(clippy::unsafe_derive_deserialize, reason = "the unsafe code is pyo3's, and relies on nothing that is read")]
+#![allow(clippy::needless_pass_by_value, reason = "Python's arguments are handed over by value")]
+
 use pyo3::prelude::*;
 
 mod body;
