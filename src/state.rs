@@ -121,6 +121,7 @@ pub struct Moment {
 impl Moment {
     /// The moment `h` later in the same interval.
     #[inline]
+    #[must_use]
     pub fn after(self, h: f64) -> Self {
         Self { time: self.time + h, since: self.since }
     }

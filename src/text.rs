@@ -9,8 +9,8 @@ pub(crate) fn short(x: f64) -> String {
     if !(1e-3..1e5).contains(&size) {
         return format!("{x:.3e}");
     }
-    let decimals = (3 - libm::floor(libm::log10(size)) as i32).clamp(0, 6);
-    let text = format!("{x:.*}", usize::try_from(decimals).unwrap_or_default());
+    let decimals = [1e3, 1e2, 1e1, 1e0, 1e-1, 1e-2].iter().filter(|&&bound| size < bound).count();
+    let text = format!("{x:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 

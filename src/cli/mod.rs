@@ -153,9 +153,9 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> i32 {
         Verb::Run { scene, options, out, quiet } => run(&scene, &options, out, quiet),
         Verb::Explain { scene, options } => explain(&scene, &options),
         Verb::Compare { scene, methods, steps, repeats, span, out } => {
-            compare(&scene, CompareOptions { methods, steps, repeats, run: RunOptions::default() }, span, &out)
+            compare(&scene, CompareOptions { methods, steps, repeats, run: RunOptions::default() }, span.as_ref(), &out)
         }
-        Verb::Check { scenes } => check(&scenes),
+        Verb::Check { scenes } => Ok(check(&scenes)),
         Verb::Schema => {
             print(&format!("{:#}", Scene::schema()));
             Ok(DONE)
@@ -202,12 +202,12 @@ fn run(path: &Path, options: &Options, out: Option<PathBuf>, quiet: bool) -> Res
 
     // a bar where a person watches, nothing in a pipe
     let watched = !quiet && std::io::stderr().is_terminal();
-    let bar = if watched { indicatif::ProgressBar::new(BAR) } else { indicatif::ProgressBar::hidden() };
+    let bar = if watched { indicatif::ProgressBar::new(u64::from(BAR)) } else { indicatif::ProgressBar::hidden() };
     bar.set_style(bar_style());
     bar.enable_steady_tick(Duration::from_millis(100));
     let mut observer = |progress: Progress| {
         if watched {
-            bar.set_position((progress.fraction * BAR as f64) as u64);
+            bar.set_position(whole_part(progress.fraction * f64::from(BAR)));
             bar.set_message(format!("pass {}", progress.pass));
         }
         ControlFlow::Continue(())
@@ -242,8 +242,14 @@ fn run(path: &Path, options: &Options, out: Option<PathBuf>, quiet: bool) -> Res
     Ok(code)
 }
 
+/// The whole part of a position on the bar.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the bar's length")]
+fn whole_part(position: f64) -> u64 {
+    position as u64
+}
+
 /// Positions of the progress bar.
-const BAR: u64 = 1000;
+const BAR: u32 = 1000;
 
 fn bar_style() -> indicatif::ProgressStyle {
     let style = indicatif::ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} % {elapsed}");
@@ -303,9 +309,9 @@ fn explain(path: &Path, options: &Options) -> Result<i32> {
     Ok(DONE)
 }
 
-fn compare(path: &Path, options: CompareOptions, span: Option<Vec<f64>>, out: &[PathBuf]) -> Result<i32> {
+fn compare(path: &Path, options: CompareOptions, span: Option<&Vec<f64>>, out: &[PathBuf]) -> Result<i32> {
     let scene = Scene::load(path)?;
-    let span = span_of(span.as_ref(), &scene.run)?;
+    let span = span_of(span, &scene.run)?;
     let options = CompareOptions { run: RunOptions { method: None, step: None, ..scene.run.clone() }, ..options };
     let table = match scene.compare(span, &options) {
         Ok(table) => table,
@@ -337,7 +343,7 @@ fn compare(path: &Path, options: CompareOptions, span: Option<Vec<f64>>, out: &[
     Ok(DONE)
 }
 
-fn check(paths: &[PathBuf]) -> Result<i32> {
+fn check(paths: &[PathBuf]) -> i32 {
     let mut code = DONE;
     for path in paths {
         match Scene::load(path).and_then(|scene| scene.compile(&scene.run)) {
@@ -348,5 +354,5 @@ fn check(paths: &[PathBuf]) -> Result<i32> {
             }
         }
     }
-    Ok(code)
+    code
 }

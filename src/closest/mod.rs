@@ -263,7 +263,9 @@ fn climb(pair: &Pair<'_, f64>, start: &[Ids], inside: bool, accuracy: Accuracy, 
             return Outcome { bounds, core: None, rung: Rung::Verified };
         }
         let mut simplex = Simplex::empty();
-        start.iter().for_each(|&ids| simplex.push(ids, Vec3::zero()));
+        for &ids in start {
+            simplex.push(ids, Vec3::zero());
+        }
         let features = [
             feature(pair.a, &simplex, 0, || pair.in_axes_of_a(&pair.between)),
             feature(pair.b, &simplex, 1, || -pair.in_axes_of_b(&pair.between)),

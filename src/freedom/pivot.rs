@@ -17,7 +17,7 @@ use crate::tolerance::VELOCITY_FITS_FREEDOM;
 pub struct Pivot {
     spin: Spin,
     /// The point that rests, world axes [m].
-    pivot: Vector3,
+    point: Vector3,
     /// From the pivot to the centre of mass, body axes [m].
     arm_body: Vector3,
 }
@@ -35,7 +35,7 @@ impl Pivot {
             return Err(Error::value(place, "velocity", allowed, motion.velocity.as_slice()));
         }
         let inertia = super::about_point(motion, &arm_body);
-        Ok(Self { spin: Spin::new(form, inertia), pivot, arm_body })
+        Ok(Self { spin: Spin::new(form, inertia), point: pivot, arm_body })
     }
 
     /// Inertia about the pivot, body axes [kg·m²].
@@ -53,7 +53,7 @@ impl Pivot {
     }
 
     pub(super) fn encode(&self, state: &BodyState, y: &mut [f64]) {
-        let r = state.position - self.pivot;
+        let r = state.position - self.point;
         let momentum = state.angular_momentum + r.cross(&state.linear_momentum);
         self.spin.encode(&state.orientation, &momentum, y);
     }
@@ -62,7 +62,7 @@ impl Pivot {
     pub(super) fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
         (motion.orientation, motion.rotation, motion.angular_velocity) = self.spin.decode(y);
         let r = motion.rotation * self.arm_body;
-        motion.position = self.pivot + r;
+        motion.position = self.point + r;
         motion.velocity = motion.angular_velocity.cross(&r);
     }
 

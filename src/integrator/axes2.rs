@@ -1,4 +1,4 @@
-//! Rotations about the three principal axes, one after another (McLachlan 1993; Reich 1994; Touma, Wisdom
+//! Rotations about the three principal axes, one after another (`McLachlan` 1993; Reich 1994; Touma, Wisdom
 //! 1994).
 //!
 //! ```text

@@ -1,4 +1,4 @@
-//! Symmetric top and rest (Touma, Wisdom 1994, Astron. J. 107:1189; Dullweber, Leimkuhler, McLachlan
+//! Symmetric top and rest (Touma, Wisdom 1994, Astron. J. 107:1189; Dullweber, Leimkuhler, `McLachlan`
 //! 1997, J. Chem. Phys. 107:5840).
 //!
 //! ```text

@@ -290,12 +290,11 @@ impl Plan {
         let starts = (self.groups[group].method == Method::Exact).then(|| self.starts(group, &charts, motions));
         let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
         debug_assert_eq!(problem.dimension(), y.len());
-        match self.groups[group].method.integrator(&problem, control, self.options.projection) {
-            Some(integrator) => Box::new(Integration::new(problem, integrator, t, y)),
-            None => {
-                let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
-                Box::new(ClosedFlight::new(problem, motion, control))
-            }
+        if let Some(integrator) = self.groups[group].method.integrator(&problem, control, self.options.projection) {
+            Box::new(Integration::new(problem, integrator, t, y))
+        } else {
+            let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
+            Box::new(ClosedFlight::new(problem, motion, control))
         }
     }
 

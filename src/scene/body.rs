@@ -297,7 +297,7 @@ impl Body {
             }
         }
         let length = quaternion::from_scalar_first(self.orientation).norm();
-        if !((length - 1.0).abs() <= QUATERNION_LENGTH) {
+        if !(1.0 - QUATERNION_LENGTH..=1.0 + QUATERNION_LENGTH).contains(&length) {
             let allowed = format!("a unit quaternion (w, x, y, z), length 1 ± {QUATERNION_LENGTH}");
             return Err(Error::value(place, "orientation", allowed, self.orientation));
         }

@@ -30,8 +30,8 @@ impl Format {
     }
 }
 
-fn file_error(path: &Path, reason: impl ToString) -> Error {
-    Error::File { path: path.display().to_string(), reason: reason.to_string() }
+fn file_error(path: &Path, reason: impl Into<String>) -> Error {
+    Error::File { path: path.display().to_string(), reason: reason.into() }
 }
 
 impl Scene {
@@ -85,7 +85,7 @@ impl Scene {
     pub fn load(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let format = Format::of(path)?;
-        let text = fs::read_to_string(path).map_err(|error| file_error(path, error))?;
+        let text = fs::read_to_string(path).map_err(|error| file_error(path, error.to_string()))?;
         let scene = Self::from_text(&text, format).map_err(|error| match error {
             Error::File { reason, .. } => file_error(path, reason),
             other => other,
@@ -100,7 +100,7 @@ impl Scene {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let text = self.to_text(Format::of(path)?)?;
-        fs::write(path, text).map_err(|error| file_error(path, error))
+        fs::write(path, text).map_err(|error| file_error(path, error.to_string()))
     }
 
     /// The JSON Schema of scene files.

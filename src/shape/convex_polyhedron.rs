@@ -210,6 +210,7 @@ impl ConvexPolyhedron {
     }
 
     /// The vertices as they were given [m, body axes]; coordinates below 1e-40 of the body's size are 0.
+    #[expect(clippy::misnamed_getters, reason = "the vertices as given are kept under another name")]
     pub fn vertices(&self) -> &[[f64; 3]] {
         &self.points
     }
@@ -515,6 +516,7 @@ fn cube_cell(d: &[f64; 3], cells: usize) -> usize {
     };
     let scale = 0.5 * cells as f64 / d[axis].abs();
     // a direction of length zero or NaN has no cell; the cast makes it the first
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, then clamped")]
     let cell = |v: f64| ((v * scale + 0.5 * cells as f64) as usize).min(cells - 1);
     let side = 2 * axis + usize::from(d[axis] < 0.0);
     (side * cells + cell(d[(axis + 1) % 3])) * cells + cell(d[(axis + 2) % 3])

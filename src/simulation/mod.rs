@@ -249,10 +249,10 @@ impl Simulation {
 
         // the motion within the step, where someone looks at it
         let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
-        if looked_at || !spec.pairs.is_empty() {
-            if let Err(error) = lane.flight.interpolate() {
-                return Err(self.failure(index, front, error.into()));
-            }
+        if (looked_at || !spec.pairs.is_empty())
+            && let Err(error) = lane.flight.interpolate()
+        {
+            return Err(self.failure(index, front, error.into()));
         }
 
         // the first of the pairs that touch within the step cuts it
@@ -270,10 +270,10 @@ impl Simulation {
         if let Some((_, iterations)) = first {
             return self.answer_touches(index, iterations, record);
         }
-        if lane.flight.front() >= switch {
-            if let Err(error) = lane.flight.pass_switch() {
-                return Err(self.failure(index, front, error.into()));
-            }
+        if lane.flight.front() >= switch
+            && let Err(error) = lane.flight.pass_switch()
+        {
+            return Err(self.failure(index, front, error.into()));
         }
         Ok(())
     }
