@@ -112,7 +112,8 @@ fn report(
     let mut cache = PairCache::new();
     for pose in poses {
         let cache = if warm { Some(&mut cache) } else { None };
-        let answer = closest_features(a, &Pose::identity(), b, pose, cache, Accuracy::Exact).expect("the poses are finite");
+        let answer =
+            closest_features(a, &Pose::identity(), b, pose, cache, Accuracy::Exact).expect("the poses are finite");
         certified += usize::from(answer.certified);
         steps += answer.steps;
         width = width.max(answer.upper - answer.lower);

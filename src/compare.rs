@@ -8,12 +8,12 @@ use std::fmt;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
 use crate::plan::Plan;
-use crate::scene::{Record, RunOptions, Scene, Span};
-use crate::state::BodyState;
 use crate::reference;
+use crate::scene::{Record, RunOptions, Scene, Span};
 use crate::simulation::RunError;
 use crate::simulation::clock::thread_seconds;
 use crate::simulation::estimate::difference;
+use crate::state::BodyState;
 use crate::text::short;
 use crate::trajectory::Trajectory;
 

@@ -308,10 +308,10 @@ impl Walk<'_> {
                 [[i, k], [j, k], [j, l], [i, l]].into_iter().for_each(&mut add);
             }
             [Vertex(i), Face(f)] => {
-                self.corners_about(Side::B, f, &now.points[1]).into_iter().for_each(|j| add([i, j]))
+                self.corners_about(Side::B, f, &now.points[1]).into_iter().for_each(|j| add([i, j]));
             }
             [Face(f), Vertex(j)] => {
-                self.corners_about(Side::A, f, &now.points[0]).into_iter().for_each(|i| add([i, j]))
+                self.corners_about(Side::A, f, &now.points[0]).into_iter().for_each(|i| add([i, j]));
             }
             _ => {}
         }

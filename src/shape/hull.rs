@@ -49,7 +49,7 @@ pub fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 pub fn planar_hull(points: &[[f64; 2]]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&i, &j| compare(&points[i], &points[j]).then(i.cmp(&j)));
-    order.dedup_by(|i, j| points[*i] == points[*j]);
+    order.dedup_by(|i, j| compare(&points[*i], &points[*j]).is_eq());
     if order.len() < 3 {
         return order;
     }
@@ -82,7 +82,7 @@ pub fn planar_hull(points: &[[f64; 2]]) -> Vec<usize> {
 pub fn hull(points: &[Point]) -> Hull {
     let mut distinct: Vec<usize> = (0..points.len()).collect();
     distinct.sort_by(|&i, &j| compare(&points[i], &points[j]).then(i.cmp(&j)));
-    distinct.dedup_by(|i, j| points[*i] == points[*j]);
+    distinct.dedup_by(|i, j| compare(&points[*i], &points[*j]).is_eq());
 
     // four points that span as much as possible say the rank
     let Some((&first, &last)) = distinct.first().zip(distinct.last()) else {

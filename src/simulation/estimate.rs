@@ -23,14 +23,21 @@ pub(super) struct Comparison {
 }
 
 impl Comparison {
-    pub(super) fn new(fine: &Trajectory, coarse: &Trajectory, gain: f64, rounding: f64, tolerance: Option<f64>) -> Self {
+    pub(super) fn new(
+        fine: &Trajectory,
+        coarse: &Trajectory,
+        gain: f64,
+        rounding: f64,
+        tolerance: Option<f64>,
+    ) -> Self {
         let divisor = (gain - 1.0).max(1.0);
         let tolerance = tolerance.unwrap_or(f64::INFINITY);
         let mut comparison = Self { worst: 0.0, within_horizon: 0.0, horizon: fine.end() };
         let common = fine.times().len().min(coarse.times().len());
         let mut lost = common < fine.times().len();
         for sample in 0..common {
-            let error = difference(fine.states(sample), coarse.states(sample), fine.report().length_scale) / divisor + rounding;
+            let error =
+                difference(fine.states(sample), coarse.states(sample), fine.report().length_scale) / divisor + rounding;
             comparison.worst = comparison.worst.max(error);
             if error > tolerance && !lost {
                 lost = true;

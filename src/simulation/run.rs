@@ -38,7 +38,12 @@ impl Scene {
     ///
     /// # Errors
     /// As [`run`](Self::run); a run that was stopped ends in [`Failure::Interrupted`].
-    pub fn run_observed(&self, span: impl Into<Span>, options: &RunOptions, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    pub fn run_observed(
+        &self,
+        span: impl Into<Span>,
+        options: &RunOptions,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let began = thread_seconds();
         let plan = self.compile(options)?;
         let compile = thread_seconds() - began;
@@ -76,7 +81,13 @@ impl Plan {
     }
 
     /// One run with the step asked for, and one with twice the step to estimate its error.
-    fn run_with_step(&self, span: Span, times: &[f64], step: f64, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    fn run_with_step(
+        &self,
+        span: Span,
+        times: &[f64],
+        step: f64,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let plan = Arc::new(self.clone());
         let began = thread_seconds();
         let mut run = pass(&plan, span, times, Control::Step(step), 1, observer).map_err(Box::new)?;
@@ -105,7 +116,13 @@ impl Plan {
 
     /// Makes passes with ever smaller steps, or smaller errors of a step, until two of them agree to the
     /// tolerance.
-    fn run_to_tolerance(&self, span: Span, times: &[f64], tolerance: f64, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    fn run_to_tolerance(
+        &self,
+        span: Span,
+        times: &[f64],
+        tolerance: f64,
+        observer: Observer<'_>,
+    ) -> Result<Trajectory, RunError> {
         let floor = FLOOR * self.rounding(span);
         if tolerance < floor {
             let allowed = format!("at least {floor:.1e}, what rounding leaves of this scene");
@@ -180,7 +197,8 @@ impl Plan {
     /// A guess of the length that position errors are measured by [m], before the paths are known.
     fn first_length_scale(&self, span: Span) -> f64 {
         let time = span.end - span.start;
-        let reach = self.bodies().iter().map(|body| body.radius.max(body.start.velocity.norm() * time)).fold(0.0, f64::max);
+        let reach =
+            self.bodies().iter().map(|body| body.radius.max(body.start.velocity.norm() * time)).fold(0.0, f64::max);
         self.options().length_scale.unwrap_or(if reach > 0.0 { reach } else { 1.0 })
     }
 }
@@ -234,7 +252,8 @@ impl Knob {
 
     /// The setting that should meet the tolerance, where this one left an estimate.
     fn next(&self, setting: f64, tolerance: f64, estimate: f64) -> f64 {
-        let (power, range) = if self.controls_error { (1.0, (1e-4, 1.0 / self.ratio)) } else { (1.0 / self.order, (1.0 / 32.0, 0.5)) };
+        let (power, range) =
+            if self.controls_error { (1.0, (1e-4, 1.0 / self.ratio)) } else { (1.0 / self.order, (1.0 / 32.0, 0.5)) };
         let shrink = if estimate.is_finite() { libm::pow(SAFETY * tolerance / estimate, power) } else { range.1 };
         (setting * shrink.clamp(range.0, range.1)).max(self.least)
     }

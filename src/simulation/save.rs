@@ -46,15 +46,13 @@ impl Simulation {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         // the scene says what cannot be written
         self.plan.scene().to_text(crate::scene::file::Format::Json)?;
-        let lanes = self.lanes.iter().map(|lane| {
-            SavedLane {
-                front: lane.flight.saved_front(),
-                segment: lane.flight.segment().clone(),
-                counts: *lane.flight.counts(),
-                earlier: lane.earlier,
-                held: lane.held.clone(),
-                motions: lane.motions.clone(),
-            }
+        let lanes = self.lanes.iter().map(|lane| SavedLane {
+            front: lane.flight.saved_front(),
+            segment: lane.flight.segment().clone(),
+            counts: *lane.flight.counts(),
+            earlier: lane.earlier,
+            held: lane.held.clone(),
+            motions: lane.motions.clone(),
         });
         let saved = Saved {
             bryla: VERSION.to_owned(),
@@ -83,7 +81,8 @@ impl Simulation {
         }
         let plan = Arc::new(saved.scene.compile(&saved.options)?);
         let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
-        let mut simulation = Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, Control::Step(step))?;
+        let mut simulation =
+            Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, Control::Step(step))?;
         if saved.lanes.len() != simulation.lanes.len() {
             return Err(file_error(path, &"its state does not belong to its scene"));
         }
@@ -115,7 +114,11 @@ impl Lane {
         }
         let n = self.flight.saved_front().y.len();
         let terms = saved.segment.coefficients.len();
-        if saved.front.y.len() != n || saved.front.rest.len() != n || ![0, n].contains(&saved.segment.dimension) || (n > 0 && terms % n != 0) {
+        if saved.front.y.len() != n
+            || saved.front.rest.len() != n
+            || ![0, n].contains(&saved.segment.dimension)
+            || (n > 0 && terms % n != 0)
+        {
             return None;
         }
         self.flight.resume(&saved.front, saved.segment, saved.counts);
