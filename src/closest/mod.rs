@@ -215,7 +215,7 @@ pub fn closest_features(
         let pair = Pair::precise(a, pose_a, b, pose_b);
         let precise = find(&pair, &[], SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT, accuracy, &mut steps);
         let precise_answer = describe(&pair, &precise.bounds, pose_a, accuracy, steps, Rung::DoubleDouble);
-        if precise_answer.upper - precise_answer.lower <= answer.upper - answer.lower {
+        if precise_answer.certified || precise_answer.upper - precise_answer.lower <= answer.upper - answer.lower {
             (answer, found.core) = (precise_answer, precise.core);
         }
     }
@@ -344,7 +344,7 @@ fn describe<R: Heights>(
         let weighted = |k: usize| pair.point_a(simplex.ids[k][0]).scaled(simplex.weights[k]);
         (1..simplex.count).fold(weighted(0), |sum, k| sum + weighted(k))
     };
-    let center = if pair.a.center() == [0.0; 3] { pose_a.position } else { pose_a.point(&pair.a.center().into()) };
+    let center = if pair.a.is_about_origin() { pose_a.position } else { pose_a.point(&pair.a.center().into()) };
     let point_a = center + on_a.to_vector();
     let point_b = point_a + found.point.to_vector();
     ClosestFeatures {

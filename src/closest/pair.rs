@@ -90,7 +90,7 @@ fn rotate_back<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
 impl<'a> Pair<'a, f64> {
     #[inline]
     pub(super) fn new(a: &'a ConvexPolyhedron, pose_a: &Pose, b: &'a ConvexPolyhedron, pose_b: &Pose) -> Self {
-        let between = if a.center() == [0.0; 3] && b.center() == [0.0; 3] {
+        let between = if a.is_about_origin() && b.is_about_origin() {
             Vec3((pose_b.position - pose_a.position).into())
         } else {
             Vec3(center_to_center(a, pose_a, b, pose_b).to_f64())

@@ -31,8 +31,8 @@ pub struct ConvexPolyhedron {
     rank: usize,
     center: [f64; 3],
     radius: f64,
-    points: Vec<[f64; 3]>,
     vertices: Vec<[f64; 3]>,
+    about_center: Vec<[f64; 3]>,
     sources: Vec<u32>,
     ring_start: Vec<u32>,
     ring: Vec<u32>,
@@ -116,8 +116,8 @@ impl ConvexPolyhedron {
         let given: Vec<[f64; 3]> =
             points.iter().map(|p| p.map(|x| if x.abs() < 1e-40 * span { 0.0 } else { x })).collect();
         let hull = hull::hull(&given);
-        let vertices: Vec<[f64; 3]> = hull.vertices.iter().map(|&i| sub(&given[i], &center)).collect();
-        let radius = vertices.iter().map(norm).fold(0.0, f64::max) * (1.0 + 4.0 * f64::EPSILON);
+        let about_center: Vec<[f64; 3]> = hull.vertices.iter().map(|&i| sub(&given[i], &center)).collect();
+        let radius = about_center.iter().map(norm).fold(0.0, f64::max) * (1.0 + 4.0 * f64::EPSILON);
 
         // triangles and rings in terms of the kept vertices
         let mut kept = vec![NONE; points.len()];
@@ -126,9 +126,9 @@ impl ConvexPolyhedron {
         }
         let triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(|i| kept[i])).collect();
         let loops = match hull.rank {
-            3 => polygons(&vertices, &triangles, FACE_FLATNESS * radius),
+            3 => polygons(&about_center, &triangles, FACE_FLATNESS * radius),
             2 => {
-                let front: Vec<u32> = (0..).take(vertices.len()).collect();
+                let front: Vec<u32> = (0..).take(about_center.len()).collect();
                 let back = front.iter().rev().copied().collect();
                 vec![front, back]
             }
@@ -139,9 +139,9 @@ impl ConvexPolyhedron {
             rank: hull.rank,
             center,
             radius,
-            points: hull.vertices.iter().map(|&i| given[i]).collect(),
+            vertices: hull.vertices.iter().map(|&i| given[i]).collect(),
             sources: hull.vertices.iter().map(|&i| u32::try_from(i).unwrap_or(NONE)).collect(),
-            vertices,
+            about_center,
             ring_start: Vec::new(),
             ring: Vec::new(),
             ring_points: Vec::new(),
@@ -204,6 +204,12 @@ impl ConvexPolyhedron {
         self.center
     }
 
+    /// Whether the centre is the origin of the body's axes, so that it needs no turning.
+    #[inline]
+    pub(crate) fn is_about_origin(&self) -> bool {
+        self.center.iter().all(|&x| x == 0.0)
+    }
+
     /// Radius of the ball about [`center`](Self::center) that holds the body [m].
     pub fn radius(&self) -> f64 {
         self.radius
@@ -212,12 +218,12 @@ impl ConvexPolyhedron {
     /// The vertices as they were given [m, body axes]; coordinates below 1e-40 of the body's size are 0.
     #[expect(clippy::misnamed_getters, reason = "the vertices as given are kept under another name")]
     pub fn vertices(&self) -> &[[f64; 3]] {
-        &self.points
+        &self.vertices
     }
 
     /// The vertices about the centre [m, body axes].
     pub fn vertices_about_center(&self) -> &[[f64; 3]] {
-        &self.vertices
+        &self.about_center
     }
 
     /// For each vertex its index among the points that the hull was built from.
@@ -290,7 +296,7 @@ impl ConvexPolyhedron {
     #[inline]
     pub(crate) fn climb(&self, from: usize, direction: &[f64; 3]) -> usize {
         let mut at = from;
-        let mut height = dot(&self.vertices[at], direction);
+        let mut height = dot(&self.about_center[at], direction);
         loop {
             let mut best = at;
             for (k, v) in self.ring_points(at) {
@@ -312,7 +318,7 @@ impl ConvexPolyhedron {
         if self.seeds.is_empty() {
             return 0;
         }
-        self.seeds[cube_cell(direction, cells_per_side(self.vertices.len()))] as usize
+        self.seeds[cube_cell(direction, cells_per_side(self.about_center.len()))] as usize
     }
 
     /// The edge between two vertices, if there is one.
@@ -324,7 +330,7 @@ impl ConvexPolyhedron {
 
     /// Rings, half-edges, faces and the walls of the Voronoi regions.
     fn link(&mut self, triangles: &[[u32; 3]], loops: &[Vec<u32>]) {
-        let count = self.vertices.len();
+        let count = self.about_center.len();
         let sides = |corners: &[u32]| {
             let n = corners.len();
             (0..n).map(|k| (corners[k], corners[(k + 1) % n])).collect::<Vec<_>>()
@@ -340,7 +346,7 @@ impl ConvexPolyhedron {
         pairs.sort_unstable();
         pairs.dedup();
         (self.ring_start, self.ring) = grouped(count, &pairs);
-        self.ring_points = self.ring.iter().map(|&k| self.vertices[k as usize]).collect();
+        self.ring_points = self.ring.iter().map(|&k| self.about_center[k as usize]).collect();
 
         // half-edges, the twins next to each other
         let mut half_edge_of: BTreeMap<(u32, u32), u32> = BTreeMap::new();
@@ -370,7 +376,7 @@ impl ConvexPolyhedron {
         // walls: along each edge, and inwards from each half-edge
         for e in 0..self.half_edges.len() / 2 {
             let [i, j] = self.edge_vertices(e);
-            let along = sub(&self.vertices[j], &self.vertices[i]);
+            let along = sub(&self.about_center[j], &self.about_center[i]);
             let length = norm(&along);
             self.edges.push(Edge { direction: along.map(|x| x / length), length });
         }
@@ -394,12 +400,12 @@ impl ConvexPolyhedron {
 
     /// The plane of a loop of vertices: its area vector (Newell), moved out to hold the whole body.
     fn face(&self, corners: &[u32], half_edge: u32) -> Face {
-        let at = |k: usize| &self.vertices[corners[k] as usize];
+        let at = |k: usize| &self.about_center[corners[k] as usize];
         let area = (2..corners.len()).fold([0.0; 3], |sum, k| add(&sum, &area_vector(at(0), at(k - 1), at(k))));
         let normal = unit(&area);
         let height = |v: &[f64; 3]| dot(&normal, v);
-        let offset = self.vertices.iter().map(height).fold(f64::MIN, f64::max);
-        let lowest = corners.iter().map(|&k| height(&self.vertices[k as usize])).fold(f64::MAX, f64::min);
+        let offset = self.about_center.iter().map(height).fold(f64::MIN, f64::max);
+        let lowest = corners.iter().map(|&k| height(&self.about_center[k as usize])).fold(f64::MAX, f64::min);
         Face {
             normal,
             offset,
@@ -411,7 +417,7 @@ impl ConvexPolyhedron {
 
     /// For large bodies, the farthest vertex for a grid of directions on a cube.
     fn seed(&mut self) {
-        let cells = cells_per_side(self.vertices.len());
+        let cells = cells_per_side(self.about_center.len());
         let mut at = 0;
         let mut seeds = Vec::with_capacity(6 * cells * cells);
         for cell in 0..6 * cells * cells {
@@ -504,6 +510,7 @@ fn cells_per_side(vertices: usize) -> usize {
 }
 
 /// The cell of the cube of directions that a direction points through.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates; NaN gives cell 0")]
 #[inline]
 fn cube_cell(d: &[f64; 3], cells: usize) -> usize {
     let [x, y, z] = d.map(f64::abs);
@@ -593,7 +600,7 @@ mod tests {
 
     /// Euler's formula, twins, loops, and every wall where it belongs.
     fn assert_is_linked(body: &ConvexPolyhedron) {
-        let (v, e, f) = (body.vertices.len(), body.edges.len(), body.faces.len());
+        let (v, e, f) = (body.about_center.len(), body.edges.len(), body.faces.len());
         assert_eq!(v + f, e + 2, "Euler's formula: {v} vertices, {e} edges, {f} faces");
         for (h, half) in body.half_edges.iter().enumerate() {
             let end = body.half_edges[h ^ 1].origin;
@@ -606,9 +613,9 @@ mod tests {
         for (f, face) in body.faces.iter().enumerate() {
             assert!(face.fit_error <= 2.0 * FACE_FLATNESS * body.radius, "{:e}", face.fit_error / body.radius);
             for h in body.face_half_edges(f) {
-                let origin = &body.vertices[body.half_edges[h].origin as usize];
+                let origin = &body.about_center[body.half_edges[h].origin as usize];
                 for corner in body.face_vertices(f) {
-                    let inside = dot(&body.half_edges[h].inward, &sub(&body.vertices[corner], origin));
+                    let inside = dot(&body.half_edges[h].inward, &sub(&body.about_center[corner], origin));
                     assert!(inside >= -1e-9 * body.radius, "a face is not convex: {inside}");
                 }
             }
@@ -619,10 +626,10 @@ mod tests {
     fn boxes_have_six_faces_however_thin_or_turned() {
         for h in [[1.0; 3], [1.0, 1.0, 1e-6], [84.0, 0.001, 84.0], [1e-6, 1.0, 1e-6]] {
             let body = box_of(h);
-            assert_eq!((body.vertices.len(), body.edges.len(), body.faces.len()), (8, 12, 6), "{h:?}");
+            assert_eq!((body.about_center.len(), body.edges.len(), body.faces.len()), (8, 12, 6), "{h:?}");
             assert_is_linked(&body);
             let q = crate::math::Pose::new([0.0; 3], [0.3, -0.5, 0.7, 0.4]);
-            let turned: Vec<[f64; 3]> = body.points.iter().map(|&p| q.point(&p.into()).into()).collect();
+            let turned: Vec<[f64; 3]> = body.vertices.iter().map(|&p| q.point(&p.into()).into()).collect();
             let turned = ConvexPolyhedron::from_points(&turned).unwrap();
             assert_eq!((turned.vertices.len(), turned.edges.len(), turned.faces.len()), (8, 12, 6), "turned {h:?}");
             assert_is_linked(&turned);
@@ -651,7 +658,7 @@ mod tests {
             (0..8).map(|k| std::array::from_fn(|i| far + if k >> i & 1 == 0 { -1.0 } else { 1.0 })).collect();
         let body = ConvexPolyhedron::from_points(&corners).unwrap();
         assert_eq!(body.center, [far; 3]);
-        assert!(body.vertices.iter().flatten().all(|x| x.abs() == 1.0));
+        assert!(body.about_center.iter().flatten().all(|x| x.abs() == 1.0));
         assert_eq!(body.vertices(), corners);
     }
 
@@ -688,8 +695,8 @@ mod tests {
             let round: Vec<[f64; 3]> = cloud.iter().map(|p| unit(p)).collect();
             let body = ConvexPolyhedron::from_points(&round).unwrap();
             assert_is_linked(&body);
-            let best = body.vertices.iter().map(|v| dot(v, &d)).fold(f64::MIN, f64::max);
-            let found = dot(&body.vertices[body.support(d)], &d);
+            let best = body.about_center.iter().map(|v| dot(v, &d)).fold(f64::MIN, f64::max);
+            let found = dot(&body.about_center[body.support(d)], &d);
             prop_assert!(found >= best - 4.0 * f64::EPSILON, "{found} {best}");
         }
     }
