@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::integrator::{Control, Counts, Method};
+use crate::integrator::{Counts, Method};
 use crate::plan::Plan;
 
 /// Time spent by stage [s of the thread's clock].
@@ -21,8 +21,10 @@ pub struct Seconds {
 pub struct Report {
     /// Method of integration.
     pub method: Method,
-    /// What decided the length of the steps; none where nothing was integrated.
-    pub control: Option<Control>,
+    /// Length of a step [s]; the mean one, where they differ.
+    pub step: f64,
+    /// Largest error that a step was allowed [-], where that decided its length.
+    pub local_tolerance: Option<f64>,
     /// Tolerance asked for [-].
     pub tolerance: Option<f64>,
     /// Estimated error of the result [-]: the larger of position error over `length_scale` and
@@ -51,7 +53,8 @@ impl Report {
     pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             method: plan.method(),
-            control: None,
+            step: plan.options().step.unwrap_or_default(),
+            local_tolerance: None,
             tolerance: plan.tolerance(),
             error_estimate: None,
             estimated_by: "not estimated",
@@ -68,10 +71,9 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Report: {}", self.method)?;
-        match self.control {
-            Some(Control::Step(step)) => writeln!(f, ", h = {} s", short(step))?,
-            Some(Control::Error(limits)) => writeln!(f, ", error of a step ≤ {}", short(limits.local))?,
+        write!(f, "Report: {}, h = {} s", self.method, short(self.step))?;
+        match self.local_tolerance {
+            Some(local) => writeln!(f, " in the mean, found for an error of {} a step", short(local))?,
             None => writeln!(f)?,
         }
         match self.error_estimate {
@@ -86,7 +88,11 @@ impl fmt::Display for Report {
             _ => writeln!(f)?,
         }
         writeln!(f, "  scale      positions over {} m, orientations in rad", short(self.length_scale))?;
-        writeln!(f, "  drift      orientation {} off its sphere before projection", short(self.counts.orientation_drift))?;
+        writeln!(
+            f,
+            "  drift      orientation {} off its sphere before projection",
+            short(self.counts.orientation_drift)
+        )?;
         write!(f, "  work       {} steps, {} evaluations", self.counts.steps, self.counts.evaluations)?;
         if self.counts.rejected > 0 {
             write!(f, ", {} steps refused", self.counts.rejected)?;

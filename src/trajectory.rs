@@ -164,7 +164,13 @@ impl Trajectory {
 
     /// Keeps the samples of one step, and its motion where that is asked for. `cursor` is the
     /// group's next sample.
-    pub(crate) fn record(&mut self, phase: usize, segment: &Segment, cursor: &mut usize, scratch: &mut Vec<BodyMotion>) {
+    pub(crate) fn record(
+        &mut self,
+        phase: usize,
+        segment: &Segment,
+        cursor: &mut usize,
+        scratch: &mut Vec<BodyMotion>,
+    ) {
         while self.times.get(*cursor).is_some_and(|&t| t < segment.end) {
             self.phases[phase].read(segment, self.times[*cursor].max(segment.start), scratch);
             self.put_sample(*cursor, phase, scratch);
@@ -298,8 +304,7 @@ impl Trajectory {
         let mut total = Total { linear_momentum: Vector3::zeros(), angular_momentum: Vector3::zeros() };
         for state in self.states(sample) {
             total.linear_momentum += state.linear_momentum;
-            total.angular_momentum +=
-                state.angular_momentum + (state.position - about).cross(&state.linear_momentum);
+            total.angular_momentum += state.angular_momentum + (state.position - about).cross(&state.linear_momentum);
         }
         total
     }

@@ -61,7 +61,8 @@ fn difference(a: &Trajectory, b: &Trajectory, scale: f64) -> f64 {
 /// rounding shows.
 fn measured_order(scene: &Scene, method: Method, record: &RunOptions) -> f64 {
     let span = [0.0, 2.0];
-    let fixed = |steps: f64| RunOptions { method: Some(method), step: Some(2.0 / steps), estimate: false, ..record.clone() };
+    let fixed =
+        |steps: f64| RunOptions { method: Some(method), step: Some(2.0 / steps), estimate: false, ..record.clone() };
     // truth: a method of order 8 with 2000 steps; its truncation, 1e-9⁸ of a step, is below rounding
     let truth = RunOptions { method: Some(Method::Dop853), step: Some(1e-3), estimate: false, ..record.clone() };
     let truth = run(scene, span, &truth);
@@ -93,7 +94,10 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
             // of high orders only two halvings lie between the first step that resolves the turning and rounding
             let slack = if order > 4.0 { 0.3 } else { 0.1 };
             println!("{name} {method}: order {order}, measured {slope:.2}");
-            assert!((slope - order).abs() < slack || slope > order, "{name} {method}: order {order}, measured {slope:.3}");
+            assert!(
+                (slope - order).abs() < slack || slope > order,
+                "{name} {method}: order {order}, measured {slope:.3}"
+            );
         }
     }
 }
@@ -108,7 +112,13 @@ fn closed() -> Scene {
     scene.add(body("top").freedom(Freedom::pivot([0.2, 0.1, -0.3])).angular_velocity([1.0, -2.0, 0.4])).unwrap();
     let disc = body("disc").freedom(Freedom::planar([1.0, 1.0, 0.0])).angular_velocity([2.0, 2.0, 0.0]);
     scene.add(disc.velocity([0.1, -0.1, 0.5])).unwrap();
-    scene.add(body("wheel").freedom(Freedom::axle([0.1, 0.0, 0.2], [0.0, 1.0, 0.0])).angular_velocity_body([0.0, 3.0, 0.0])).unwrap();
+    scene
+        .add(
+            body("wheel")
+                .freedom(Freedom::axle([0.1, 0.0, 0.2], [0.0, 1.0, 0.0]))
+                .angular_velocity_body([0.0, 3.0, 0.0]),
+        )
+        .unwrap();
     scene.add_effect(UniformGravity::new([0.0, 1.0, -9.81]).on(["tumbling", "disc"]));
     scene.add_effect(Drag::new(0.7, 0.0).wind([1.0, -2.0, 0.5]).on(["tumbling"]));
     scene
@@ -220,18 +230,21 @@ const FAMILIES: [(&str, fn(&mut Random) -> (Scene, f64)); 6] = [
         let body = Body::with_inertia("body", 0.5, r.inertia(0.01)).orientation(r.orientation());
         scene.add(body.velocity(r.vector(speed)).angular_velocity(r.vector(spin))).unwrap();
         scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
-        scene.add_effect(
-            Drag::new(r.size(1e-3, 0.1), r.size(1e-4, 1e-2)).angular(1e-3, 1e-4).wind(r.vector(5.0)),
-        );
+        scene.add_effect(Drag::new(r.size(1e-3, 0.1), r.size(1e-4, 1e-2)).angular(1e-3, 1e-4).wind(r.vector(5.0)));
         (scene, r.between(0.5, 3.0))
     }),
     ("hovercraft", |r| {
         let mut scene = Scene::new();
         let body = Body::with_inertia("body", 2.0, inertia([0.3, 0.4, 0.5])).freedom(Freedom::planar([0.0, 0.0, 1.0]));
-        scene.add(body.velocity([r.between(-1.0, 1.0), 0.3, 0.0]).angular_velocity([0.0, 0.0, r.between(-1.0, 1.0)])).unwrap();
+        scene
+            .add(body.velocity([r.between(-1.0, 1.0), 0.3, 0.0]).angular_velocity([0.0, 0.0, r.between(-1.0, 1.0)]))
+            .unwrap();
         for point in [[-0.5, 0.0, 0.0], [0.4, 0.2, 0.0], [0.4, -0.2, 0.0]] {
-            let schedule = vec![(r.between(0.0, 1.0), r.unit()), (r.between(1.0, 2.0), r.unit()), (r.between(2.0, 4.0), 0.0)];
-            scene.add_effect(Thruster::new("body", point, [r.between(0.0, 3.0), r.between(-1.0, 1.0), 0.0]).schedule(schedule));
+            let schedule =
+                vec![(r.between(0.0, 1.0), r.unit()), (r.between(1.0, 2.0), r.unit()), (r.between(2.0, 4.0), 0.0)];
+            scene.add_effect(
+                Thruster::new("body", point, [r.between(0.0, 3.0), r.between(-1.0, 1.0), 0.0]).schedule(schedule),
+            );
         }
         scene.add_effect(Drag::new(0.4, 0.2).angular(0.1, 0.05));
         (scene, r.between(2.0, 6.0))

@@ -1,7 +1,7 @@
 //! A body that moves in a plane: the lecture's hovercraft (§6).
 
-use super::{Scales, direction};
 use super::spin::{put, vector};
+use super::{Scales, direction};
 use crate::error::{Error, Result};
 use crate::math::{Quaternion, Vector3, quaternion};
 use crate::state::{BodyMotion, BodyState, Load};

@@ -37,7 +37,12 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
 
     fn new(n: usize) -> Self {
         let zeros = |_| Y::zeros(n);
-        Self { stage: Y::zeros(n), k: std::array::from_fn(zeros), dense: std::array::from_fn(zeros), r: std::array::from_fn(zeros) }
+        Self {
+            stage: Y::zeros(n),
+            k: std::array::from_fn(zeros),
+            dense: std::array::from_fn(zeros),
+            r: std::array::from_fn(zeros),
+        }
     }
 
     #[rustfmt::skip]

@@ -34,7 +34,12 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
 
     fn new(n: usize) -> Self {
         let at = Moment { time: 0.0, since: 0.0 };
-        Self { stage: Y::zeros(n), at, k: std::array::from_fn(|_| Y::zeros(n)), c: std::array::from_fn(|_| Y::zeros(n)) }
+        Self {
+            stage: Y::zeros(n),
+            at,
+            k: std::array::from_fn(|_| Y::zeros(n)),
+            c: std::array::from_fn(|_| Y::zeros(n)),
+        }
     }
 
     #[rustfmt::skip]

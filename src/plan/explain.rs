@@ -41,7 +41,8 @@ impl Plan {
         for (number, group) in self.groups.iter().enumerate() {
             self.write_group(out, number, group)?;
         }
-        let pairs: Vec<_> = self.groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| (group, pair))).collect();
+        let pairs: Vec<_> =
+            self.groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| (group, pair))).collect();
         for (i, (group, pair)) in pairs.iter().enumerate() {
             let names = [group.members[pair.member], pair.obstacle].map(|i| self.bodies[i].name.as_str());
             let what = match pair.material.response {
@@ -49,7 +50,13 @@ impl Plan {
                 crate::contact::Response::Stick => "stick".to_owned(),
             };
             let finder = self.options.finder.name();
-            writeln!(out, "  {:<10} {}–{}: {what}; time of contact by {finder}", label(i, "pairs"), names[0], names[1])?;
+            writeln!(
+                out,
+                "  {:<10} {}–{}: {what}; time of contact by {finder}",
+                label(i, "pairs"),
+                names[0],
+                names[1]
+            )?;
         }
         for (i, left) in self.left_out.iter().enumerate() {
             writeln!(out, "  {:<10} {}: {}", label(i, "left out"), left.what, left.why)?;

@@ -11,7 +11,9 @@ use crate::contact::Material;
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom};
-use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Integration, Limits, Method, Problem, StateVector};
+use crate::integrator::{
+    ClosedFlight, ClosedMotion, Control, Flight, Integration, Limits, Method, Problem, StateVector,
+};
 use crate::mass::MassProperties;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
@@ -48,6 +50,8 @@ pub struct PlannedBody {
 pub(crate) struct Binding {
     pub(crate) effect: Arc<AnyEffect>,
     pub(crate) members: Vec<usize>,
+    /// Whether the members stand in rising order, so that all of a group's are the group.
+    pub(crate) in_order: bool,
     /// Whether the bodies are seen together; else the effect acts on each alone.
     pub(crate) together: bool,
 }
@@ -142,7 +146,8 @@ impl Plan {
             }
         }
         let mut left_out = Vec::new();
-        let mut groups = Grouping::new(scene, &bodies, &mut left_out)?.groups(scene, &bodies, options, &mut left_out)?;
+        let mut groups =
+            Grouping::new(scene, &bodies, &mut left_out)?.groups(scene, &bodies, options, &mut left_out)?;
         for group in &mut groups {
             group.choose_method(&bodies, options)?;
         }
@@ -213,7 +218,7 @@ impl Plan {
             return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
         };
         let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
-        self.flight_for(group, t, control, &motions, &[])
+        self.flight_for(group, t, &control, &motions, &[])
     }
 
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
@@ -223,7 +228,7 @@ impl Plan {
         &self,
         group: usize,
         t: f64,
-        control: Control,
+        control: &Control,
         motions: &[BodyMotion],
         held: &[usize],
     ) -> Result<Box<dyn Flight>> {
@@ -241,9 +246,9 @@ impl Plan {
                 // finer runs look more often, so that what the coarser missed shows in their difference
                 let finer = libm::pow(limits.local / LOOKED_AT_LOCAL, 1.0 / 8.0);
                 let longest = limits.longest.min(finer * self.first_step(limits.scales.time));
-                Control::Error(Limits { longest, ..limits })
+                Control::Error(Limits { longest, ..*limits })
             }
-            other => other,
+            other => other.clone(),
         };
 
         // single bodies have vectors of fixed length, whose loops the compiler unrolls
@@ -267,7 +272,7 @@ impl Plan {
         let starts = (self.groups[group].method == Method::Exact).then(|| self.starts(group, &charts, motions));
         let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
         debug_assert_eq!(problem.dimension(), y.len());
-        match self.groups[group].method.integrator(&problem, control, self.options.projection) {
+        match self.groups[group].method.integrator(&problem, control.clone(), self.options.projection) {
             Some(integrator) => Box::new(Integration::new(problem, integrator, t, y)),
             None => {
                 let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
@@ -383,7 +388,8 @@ impl Grouping {
                     leader.iter_mut().filter(|l| **l == second).for_each(|l| *l = first);
                 }
             }
-            bindings.push(Binding { effect: Arc::new(effect.clone()), members, together });
+            let in_order = members.is_sorted();
+            bindings.push(Binding { effect: Arc::new(effect.clone()), members, in_order, together });
         }
         Ok(Self { leader, bindings })
     }
@@ -419,8 +425,13 @@ impl Grouping {
                         members.len() - 1
                     })
                 };
-                let local = wanted.into_iter().map(&mut place).collect();
-                bindings.push(Binding { effect: binding.effect.clone(), members: local, together: binding.together });
+                let local: Vec<usize> = wanted.into_iter().map(&mut place).collect();
+                bindings.push(Binding {
+                    effect: binding.effect.clone(),
+                    in_order: local.is_sorted(),
+                    members: local,
+                    together: binding.together,
+                });
             }
             let mut switches: Vec<f64> = bindings.iter().flat_map(|b| b.effect.as_effect().switches()).collect();
             switches.sort_by(f64::total_cmp);
@@ -475,7 +486,8 @@ fn pairs(
             let size = bodies[body].radius;
             let coordinates = bodies[body].start.position.amax() + plane.offset.abs() + size;
             if let Some(eps) = options.eps.filter(|eps| *eps < EPS_ROUNDING * coordinates) {
-                let allowed = format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
+                let allowed =
+                    format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
                 return Err(Error::value("run", "eps", allowed, eps));
             }
             let [a, b] = [body, obstacle].map(|i| (scene.bodies[i].restitution, scene.bodies[i].response));

@@ -87,6 +87,8 @@ struct Lane {
     earlier: Counts,
     /// Motions at the instant under consideration.
     motions: Vec<BodyMotion>,
+    /// Ends of its steps, from the start on [s].
+    nodes: Vec<f64>,
     /// Place of the lane's phase in the trajectory, and its next sample.
     phase: usize,
     cursor: usize,
@@ -96,7 +98,8 @@ struct Lane {
 #[derive(Debug)]
 pub struct Simulation {
     plan: Arc<Plan>,
-    control: Control,
+    /// What decides the length of the steps, group by group.
+    controls: Vec<Control>,
     time: f64,
     end: f64,
     lanes: Vec<Lane>,
@@ -120,27 +123,32 @@ impl Plan {
         if !t.is_finite() {
             return Err(Error::value("run", "start", "a finite time", t));
         }
-        Simulation::new(Arc::new(self.clone()), Span { start: t, end: f64::INFINITY }, Control::Step(step))
+        Simulation::new(
+            Arc::new(self.clone()),
+            Span { start: t, end: f64::INFINITY },
+            self.controls(&Control::Step(step)),
+        )
     }
 }
 
 impl Simulation {
-    fn new(plan: Arc<Plan>, span: Span, control: Control) -> Result<Self> {
+    fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>) -> Result<Self> {
         let mut lanes = Vec::new();
         for (group, spec) in plan.groups().iter().enumerate() {
             let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            let flight = plan.flight_for(group, span.start, control, &motions, &[])?;
+            let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
             lanes.push(Lane {
                 group,
                 flight,
                 held: Vec::new(),
                 earlier: Counts::default(),
                 motions,
+                nodes: vec![span.start],
                 phase: group,
                 cursor: 0,
             });
         }
-        Ok(Self { plan, control, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
+        Ok(Self { plan, controls, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
     }
 
     /// The plan that runs.
@@ -204,7 +212,12 @@ impl Simulation {
     }
 
     /// Advances one lane until its motion is known at `to` [s].
-    fn advance_lane(&mut self, lane: usize, to: f64, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+    fn advance_lane(
+        &mut self,
+        lane: usize,
+        to: f64,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
         self.answer_touches(lane, 0, record)?;
         while self.lanes[lane].flight.front() < to {
             self.step_lane(lane, record)?;
@@ -239,6 +252,9 @@ impl Simulation {
             self.iterations += u64::from(iterations);
         }
         let lane = &mut self.lanes[index];
+        if record.is_some() {
+            lane.nodes.push(lane.flight.front());
+        }
         if let (Some(run), true) = (record.as_mut(), looked_at) {
             let mut scratch = Vec::new();
             run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
@@ -301,7 +317,12 @@ impl Simulation {
     }
 
     /// Answers every pair that touches and approaches at the front, until none approaches.
-    fn answer_touches(&mut self, index: usize, iterations: u32, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+    fn answer_touches(
+        &mut self,
+        index: usize,
+        iterations: u32,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
         let pairs = &plan.groups()[self.lanes[index].group].pairs;
         if pairs.is_empty() {
@@ -316,7 +337,8 @@ impl Simulation {
                 let motion = &motions[pair.member];
                 let gap = pair.collider.gap(motion, &pair.plane);
                 let eps = self.eps(pair, motion);
-                (gap <= eps).then(|| (pair, approaching(pair, motion, gap.max(0.0) + TOUCH_GAP * pair.size)))
+                (gap <= eps)
+                    .then(|| (pair, approaching(pair, motion, gap.max(0.0) + TOUCH_GAP * pair.size)))
                     .filter(|(_, touching)| !touching.is_empty())
             }) else {
                 return Ok(());
@@ -367,7 +389,8 @@ impl Simulation {
             trajectory: None,
         };
         let (exact, since) = lane.flight.clock();
-        lane.flight = plan.flight_for(lane.group, time, self.control, motions, &lane.held).map_err(failed)?;
+        lane.flight =
+            plan.flight_for(lane.group, time, &self.controls[lane.group], motions, &lane.held).map_err(failed)?;
         lane.flight.set_clock(exact, since);
         lane.motions.copy_from_slice(motions);
         if let (Some(run), Response::Stick) = (record, pair.material.response) {
@@ -417,6 +440,11 @@ fn approaching(pair: &Pair, motion: &BodyMotion, reach: f64) -> Vec<(usize, Vect
 }
 
 impl Plan {
+    /// The same control for every group.
+    fn controls(&self, control: &Control) -> Vec<Control> {
+        vec![control.clone(); self.groups().len()]
+    }
+
     /// The phase of a group that begins at `t` [s] with these motions.
     fn phase(&self, group: usize, t: f64, motions: &[BodyMotion], held: &[usize]) -> Result<Phase> {
         Ok(Phase {

@@ -46,15 +46,13 @@ impl Simulation {
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
         // the scene says what cannot be written
         self.plan.scene().to_text(crate::scene::file::Format::Json)?;
-        let lanes = self.lanes.iter().map(|lane| {
-            SavedLane {
-                front: lane.flight.saved_front(),
-                segment: lane.flight.segment().clone(),
-                counts: *lane.flight.counts(),
-                earlier: lane.earlier,
-                held: lane.held.clone(),
-                motions: lane.motions.clone(),
-            }
+        let lanes = self.lanes.iter().map(|lane| SavedLane {
+            front: lane.flight.saved_front(),
+            segment: lane.flight.segment().clone(),
+            counts: *lane.flight.counts(),
+            earlier: lane.earlier,
+            held: lane.held.clone(),
+            motions: lane.motions.clone(),
         });
         let saved = Saved {
             bryla: VERSION.to_owned(),
@@ -83,12 +81,14 @@ impl Simulation {
         }
         let plan = Arc::new(saved.scene.compile(&saved.options)?);
         let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
-        let mut simulation = Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, Control::Step(step))?;
+        let span = Span { start: saved.time, end: f64::INFINITY };
+        let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)))?;
         if saved.lanes.len() != simulation.lanes.len() {
             return Err(file_error(path, &"its state does not belong to its scene"));
         }
         for (group, (lane, saved)) in simulation.lanes.iter_mut().zip(saved.lanes).enumerate() {
-            lane.continue_from(&plan, group, step, saved).ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
+            lane.continue_from(&plan, group, step, saved)
+                .ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
         }
         simulation.events = saved.events;
         simulation.iterations = saved.iterations;
@@ -98,11 +98,17 @@ impl Simulation {
 
 impl Lane {
     /// Takes over a saved lane; none where its numbers do not fit.
-    fn continue_from(&mut self, plan: &crate::plan::Plan, group: usize, step: f64, saved: SavedLane) -> Option<Result<()>> {
+    fn continue_from(
+        &mut self,
+        plan: &crate::plan::Plan,
+        group: usize,
+        step: f64,
+        saved: SavedLane,
+    ) -> Option<Result<()>> {
         if saved.motions.len() != self.motions.len() {
             return None;
         }
-        match plan.flight_for(group, saved.front.time.value, Control::Step(step), &saved.motions, &saved.held) {
+        match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
             Ok(flight) => self.flight = flight,
             Err(error) => return Some(Err(error)),
         }
