@@ -196,6 +196,7 @@ impl<P: Problem> Flight for Integration<P> {
         self.front.y.as_mut().copy_from_slice(&front.y);
         self.front.rest.as_mut().copy_from_slice(&front.rest);
         self.segment = segment;
+        self.stale = false;
         self.counts = counts;
         self.integrator.restart();
     }

@@ -69,6 +69,8 @@ pub struct FlightGroup {
     /// Its bodies, as places in the scene; fixed ones among them are only seen by effects.
     pub members: Vec<usize>,
     pub(crate) bindings: Vec<Binding>,
+    /// Whether a load has kinks where a vector is 0.
+    pub(crate) has_kinks: bool,
     /// The method that integrates it.
     pub method: Method,
     /// Why this one.
@@ -77,6 +79,16 @@ pub struct FlightGroup {
     pub switches: Vec<f64>,
     /// The moving bodies that may meet a fixed plane.
     pub(crate) pairs: Vec<Pair>,
+}
+
+impl FlightGroup {
+    /// The vectors at whose zeros loads have kinks, for these motions of the members.
+    pub(crate) fn kinks(&self, motions: &[BodyMotion], kinks: &mut Vec<Vector3>) {
+        for binding in &self.bindings {
+            let effect = binding.effect.as_effect();
+            kinks.extend(binding.members.iter().flat_map(|&i| effect.kinks(&motions[i])).flatten());
+        }
+    }
 }
 
 /// A moving body and a fixed half space that it may meet.
@@ -437,7 +449,11 @@ impl Grouping {
             switches.sort_by(f64::total_cmp);
             switches.dedup();
             let (method, why) = (Method::Exact, String::new());
-            groups.push(FlightGroup { members, bindings, method, why, switches, pairs: Vec::new() });
+            let mut group = FlightGroup { members, bindings, has_kinks: false, method, why, switches, pairs: Vec::new() };
+            let (starts, mut kinks) = (group.members.iter().map(|&i| bodies[i].start).collect::<Vec<_>>(), Vec::new());
+            group.kinks(&starts, &mut kinks);
+            group.has_kinks = !kinks.is_empty();
+            groups.push(group);
         }
         pairs(scene, bodies, options, &mut groups, left_out)?;
         Ok(groups)

@@ -22,6 +22,7 @@ use crate::trajectory::{Event, EventKind, Phase, Trajectory};
 pub(crate) mod clock;
 pub(crate) mod estimate;
 mod run;
+mod turn;
 #[cfg(feature = "serde")]
 mod save;
 
@@ -87,6 +88,10 @@ struct Lane {
     earlier: Counts,
     /// Motions at the instant under consideration.
     motions: Vec<BodyMotion>,
+    /// Where a load has a kink ahead, at which a step must end [s].
+    kink: Option<f64>,
+    /// How often its place has been corrected.
+    corrections: u32,
     /// Ends of its steps, from the start on [s].
     nodes: Vec<f64>,
     /// Place of the lane's phase in the trajectory, and its next sample.
@@ -143,6 +148,8 @@ impl Simulation {
                 held: Vec::new(),
                 earlier: Counts::default(),
                 motions,
+                kink: None,
+                corrections: 0,
                 nodes: vec![span.start],
                 phase: group,
                 cursor: 0,
@@ -231,11 +238,19 @@ impl Simulation {
         let lane = &mut self.lanes[index];
         let spec = &plan.groups()[lane.group];
 
-        // a step ends at the next switch or at the end of the run
+        // a step ends at the next switch, at a kink, or at the end of the run
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        if let Err(error) = lane.flight.advance(switch.min(self.end)) {
+        let begin = (plan.tolerance().is_some() && lane.corrections < turn::CORRECTIONS).then(|| lane.kinks_at_front(spec)).flatten();
+        let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY));
+        if let Err(error) = lane.flight.advance(limit) {
             return Err(self.failure(index, front, error.into()));
+        }
+        if begin.is_some_and(|begin| lane.found_kink(spec, begin)) {
+            return Ok(());
+        }
+        if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {
+            (lane.kink, lane.corrections) = (None, 0);
         }
 
         // the motion within the step, where someone looks at it
