@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use crate::integrator::{Control, Counts, Method};
+use crate::integrator::{Counts, Method};
 use crate::plan::Plan;
 use crate::text::short;
 
@@ -25,8 +25,10 @@ pub struct Seconds {
 pub struct Report {
     /// Method of integration.
     pub method: Method,
-    /// What decided the length of the steps; none where nothing was integrated.
-    pub control: Option<Control>,
+    /// Length of a step [s]; the mean one, where they differ.
+    pub step: f64,
+    /// Largest error that a step was allowed [-], where that decided its length.
+    pub local_tolerance: Option<f64>,
     /// Tolerance asked for [-].
     pub tolerance: Option<f64>,
     /// Estimated error of the result [-]: the larger of position error over `length_scale` and
@@ -55,7 +57,8 @@ impl Report {
     pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             method: plan.method(),
-            control: None,
+            step: plan.options().step.unwrap_or_default(),
+            local_tolerance: None,
             tolerance: plan.tolerance(),
             error_estimate: None,
             estimated_by: Cow::Borrowed("not estimated"),
@@ -70,22 +73,11 @@ impl Report {
     }
 }
 
-impl Report {
-    /// Length of a step [s]; none where errors decided it.
-    pub fn step(&self) -> Option<f64> {
-        match self.control {
-            Some(Control::Step(step)) => Some(step),
-            _ => None,
-        }
-    }
-}
-
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Report: {}", self.method)?;
-        match self.control {
-            Some(Control::Step(step)) => writeln!(f, ", h = {} s", short(step))?,
-            Some(Control::Error(limits)) => writeln!(f, ", error of a step ≤ {}", short(limits.local))?,
+        write!(f, "Report: {}, h = {} s", self.method, short(self.step))?;
+        match self.local_tolerance {
+            Some(local) => writeln!(f, " in the mean, found for an error of {} a step", short(local))?,
             None => writeln!(f)?,
         }
         match self.error_estimate {

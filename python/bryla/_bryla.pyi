@@ -19,7 +19,23 @@ _Path: TypeAlias = str | PathLike[str]
 _Shape: TypeAlias = Cuboid | Sphere | Cylinder | Capsule | Cone | Ellipsoid | HalfSpace | Polyhedron | Mesh | Compound
 _Effect: TypeAlias = UniformGravity | PointGravity | Drag | Thruster | Wrench | Spring | UserEffect
 _Freedom: TypeAlias = Literal["free"] | Planar | Pivot | Axle
-_Method: TypeAlias = Literal["auto", "euler", "heun", "semi_implicit_euler", "rk4"]
+_Method: TypeAlias = Literal[
+    "auto",
+    "euler",
+    "heun",
+    "semi_implicit_euler",
+    "rk4",
+    "tsit5",
+    "dop853",
+    "split2",
+    "split4",
+    "split6",
+    "split8",
+    "axes2",
+    "cf4",
+    "buss2",
+    "exact",
+]
 _Response: TypeAlias = Literal["bounce", "stick"]
 _Frame: TypeAlias = Literal["world", "body"]
 _Record: TypeAlias = Literal["dense", "samples", "end"]
@@ -1560,8 +1576,12 @@ class Report:
         """Method of integration."""
 
     @property
-    def step(self) -> float | None:
-        """Length of a step [s], or None where errors decided it."""
+    def step(self) -> float:
+        """Length of a step [s]; the mean one, where they differ."""
+
+    @property
+    def local_tolerance(self) -> float | None:
+        """Largest error that a step was allowed [-], where that decided its length, or None."""
 
     @property
     def tolerance(self) -> float | None:

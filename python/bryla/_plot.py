@@ -67,8 +67,7 @@ def trajectory(run: Trajectory, bodies: Iterable[str] | None, figure: Figure | N
             axes.axvline(event.time, color="0.8", linewidth=0.8, zorder=0)
     report = run.report
     error = "" if report.error_estimate is None else f", error {report.error_estimate:.1e}"
-    step = "" if report.step is None else f", step {report.step:.3g} s"
-    figure.suptitle(f"{report.method}{step}{error}")
+    figure.suptitle(f"{report.method}, step {report.step:.3g} s{error}")
     return figure
 
 

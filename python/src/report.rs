@@ -110,10 +110,16 @@ impl PyReport {
         self.0.method.name()
     }
 
-    /// Length of a step [s], or None where errors decided it.
+    /// Length of a step [s]; the mean one, where they differ.
     #[getter]
-    fn step(&self) -> Option<f64> {
-        self.0.step()
+    fn step(&self) -> f64 {
+        self.0.step
+    }
+
+    /// Largest error that a step was allowed [-], where that decided its length, or None.
+    #[getter]
+    fn local_tolerance(&self) -> Option<f64> {
+        self.0.local_tolerance
     }
 
     /// Tolerance asked for [-], or None.

@@ -89,6 +89,13 @@ impl Effect for Drag {
             .then_some("all its coefficients are 0")
     }
 
+    fn kinks(&self, body: &BodyMotion) -> [Option<Vector3>; 2] {
+        [
+            (self.quadratic > 0.0).then(|| body.velocity - Vector3::from(self.wind)),
+            (self.angular_quadratic > 0.0).then_some(body.angular_velocity),
+        ]
+    }
+
     fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
         for (body, load) in bodies.iter().zip(loads) {
             self.add_to_one(body, load);

@@ -71,6 +71,12 @@ pub trait Effect: Debug + Send + Sync {
         true
     }
 
+    /// Vectors at whose zeros the load has a kink, such as the speed of quadratic drag. Runs to a tolerance
+    /// end a step where one turns round.
+    fn kinks(&self, _body: &BodyMotion) -> [Option<Vector3>; 2] {
+        [None, None]
+    }
+
     /// Times at which the load jumps [s]; no step straddles one.
     fn switches(&self) -> Vec<f64> {
         Vec::new()

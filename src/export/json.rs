@@ -33,7 +33,7 @@ pub(super) fn write(run: &Trajectory) -> Result<String> {
         "events": events,
         "report": {
             "method": report.method.name(),
-            "step": report.step(),
+            "step": report.step,
             "tolerance": report.tolerance,
             "error_estimate": report.error_estimate,
             "met": report.met,

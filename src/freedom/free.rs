@@ -2,6 +2,7 @@
 
 use super::Scales;
 use super::spin::{Form, RotationSplit, Spin, put, vector};
+use crate::math::sum::two_sum;
 use crate::state::{BodyMotion, BodyState, Load};
 
 /// Coordinates `[x, P, q or R, L]`.
@@ -23,11 +24,11 @@ impl Free {
     }
 
     #[inline]
-    pub(super) fn flow(&self, y: &mut [f64], h: f64, split: RotationSplit) {
+    pub(super) fn flow(&self, y: &mut [f64], rest: &mut [f64], h: f64, split: RotationSplit) {
         for i in 0..3 {
-            y[i] += h * self.inv_mass * y[3 + i];
+            (y[i], rest[i]) = two_sum(y[i], h * self.inv_mass * y[3 + i] + rest[i]);
         }
-        self.spin.flow(&mut y[6..], h, split);
+        self.spin.flow(&mut y[6..], &mut rest[6..], h, split);
     }
 
     pub(super) fn dimension(&self) -> usize {
@@ -40,28 +41,28 @@ impl Free {
         self.spin.encode(&state.orientation, &state.angular_momentum, &mut y[6..]);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
         motion.position = vector(y);
         motion.velocity = self.inv_mass * vector(&y[3..]);
         (motion.orientation, motion.rotation, motion.angular_velocity) = self.spin.decode(&y[6..]);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate(&self, y: &[f64], motion: &BodyMotion, load: &Load, dy: &mut [f64]) {
         put(dy, &motion.velocity);
         put(&mut dy[3..], &load.force);
         self.spin.rate(&y[6..], &motion.rotation, &motion.angular_velocity, &load.torque, &mut dy[6..]);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         put(dy, &(self.inv_mass * vector(&y[3..])));
         dy[3..6].fill(0.0);
         self.spin.rate_unloaded(&y[6..], &mut dy[6..]);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
         self.spin.project(&mut y[6..], &mut rest[6..])
     }

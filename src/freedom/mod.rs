@@ -11,6 +11,7 @@
 //! it would need are worked out where they are asked for ([`Chart::reaction`]).
 
 use crate::error::{Error, Result};
+use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Vector3};
 use crate::state::{BodyMotion, BodyState, Load};
 
@@ -161,37 +162,38 @@ impl Chart {
     }
 
     /// Reads the motion from coordinates; mass and inertia of `motion` stay.
-    #[inline]
+    #[inline(always)]
     pub fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
         dispatch!(self, c => c.decode(y, motion), ());
     }
 
     /// `dY/dt` under a load, lecture (24); `motion` is what [`decode`](Self::decode) read from `y`.
-    #[inline]
+    #[inline(always)]
     pub fn rate(&self, y: &[f64], motion: &BodyMotion, load: &Load, dy: &mut [f64]) {
         dispatch!(self, c => c.rate(y, motion, load, dy), ());
     }
 
     /// `dY/dt` where nothing acts on the body: no load, and no motion to be read first. It is also
     /// the drift of a splitting, whose kick is the rest of [`rate`](Self::rate).
-    #[inline]
+    #[inline(always)]
     pub fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         dispatch!(self, c => c.rate_unloaded(y, dy), ());
     }
 
-    /// Advances the motion without loads by `h` [s]: exactly, or with the rotation split.
+    /// Advances the motion without loads by `h` [s]: exactly, or with the rotation split; `rest` takes up
+    /// what rounding drops.
     #[inline]
-    pub fn flow(&self, y: &mut [f64], h: f64, split: RotationSplit) {
+    pub fn flow(&self, y: &mut [f64], rest: &mut [f64], h: f64, split: RotationSplit) {
         match self {
-            Self::Free(c) => c.flow(y, h, split),
-            Self::Pivot(c) => c.spin().flow(y, h, split),
+            Self::Free(c) => c.flow(y, rest, h, split),
+            Self::Pivot(c) => c.spin().flow(y, rest, h, split),
             Self::Planar(_) | Self::Axle(_) => {
                 // straight lines: the rates without loads stay
                 let mut dy = [0.0; 6];
                 let n = self.dimension();
                 self.rate_unloaded(y, &mut dy[..n]);
-                for (y, dy) in y.iter_mut().zip(&dy) {
-                    *y += h * dy;
+                for ((y, rest), dy) in y.iter_mut().zip(rest).zip(&dy) {
+                    (*y, *rest) = two_sum(*y, h * dy + *rest);
                 }
             }
             Self::Fixed => {}
@@ -209,7 +211,7 @@ impl Chart {
 
     /// Puts the orientation back on its sphere (or R on the rotations), lecture §4, with the rest that
     /// rounding left of it, and returns how far it had strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
-    #[inline]
+    #[inline(always)]
     pub fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
         dispatch!(self, c => c.project(y, rest), 0.0)
     }

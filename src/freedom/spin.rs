@@ -122,7 +122,7 @@ impl Spin {
     }
 
     /// The rotation of `q/|q|`, or of R's polar factor, and the angular velocity, world axes.
-    #[inline]
+    #[inline(always)]
     pub(super) fn decode(&self, y: &[f64]) -> (Quaternion, Matrix3, Vector3) {
         match self.form {
             Form::WorldQuaternion => {
@@ -158,7 +158,7 @@ impl Spin {
     }
 
     /// `(dq/dt or dR/dt, dL/dt)` under a torque about the point, world axes; `r` and `w` as decoded.
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate(&self, y: &[f64], r: &Matrix3, w: &Vector3, torque: &Vector3, dy: &mut [f64]) {
         match self.form {
             Form::WorldQuaternion => {
@@ -178,7 +178,7 @@ impl Spin {
     }
 
     /// The same without a torque.
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         if self.form == Form::Body {
             self.rate_body(y, &Vector3::zeros(), dy);
@@ -189,7 +189,7 @@ impl Spin {
     }
 
     /// Euler's equations: torque in principal axes.
-    #[inline]
+    #[inline(always)]
     fn rate_body(&self, y: &[f64], torque: &Vector3, dy: &mut [f64]) {
         let momentum = vector(&y[4..]);
         let w = self.inv_moments.component_mul(&momentum);
@@ -197,10 +197,10 @@ impl Spin {
         put(&mut dy[4..], &(momentum.cross(&w) + torque));
     }
 
-    /// Advances the rotation without torque by `h`, principal axes.
+    /// Advances the rotation without torque by `h`, principal axes; `rest` takes up what rounding drops.
     #[inline]
-    pub(super) fn flow(&self, y: &mut [f64], h: f64, split: RotationSplit) {
-        let mut turn = Turn { q: quaternion_at(y), momentum: vector(&y[4..]) };
+    pub(super) fn flow(&self, y: &mut [f64], rest: &mut [f64], h: f64, split: RotationSplit) {
+        let mut turn = Turn { y, rest };
         let a = &self.inv_moments;
         match split {
             RotationSplit::Axes => {
@@ -221,8 +221,6 @@ impl Spin {
                 turn.about_axis(i, 0.5 * h * (a[i] - a[j]));
             }
         }
-        put_quaternion(y, &turn.q);
-        put(&mut y[4..], &turn.momentum);
     }
 
     /// Turns the rate of the orientation into the angular velocity, in the first three numbers.
@@ -271,7 +269,7 @@ impl Spin {
     /// ```
     ///
     /// Adding the small correction keeps the digits that the rest holds; a division would round them off.
-    #[inline]
+    #[inline(always)]
     pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
         if self.form == Form::WorldMatrix {
             let r = matrix_at(y);
@@ -318,37 +316,57 @@ impl Spin {
 /// Stray of `|q|²` below which four terms of the series are exact to rounding [-]: e⁵/4 < 1e-18.
 const SMALL_STRAY: f64 = 3.0e-4;
 
-/// A body that is turned by known rotations: its orientation, and L in its own axes.
-struct Turn {
-    q: Quaternion,
-    momentum: Vector3,
+/// A body that is turned by known rotations: q and L in its own axes, as seven numbers, each with its rest.
+///
+/// Rotations are added as changes, `(cos − 1) v + sin …` with `cos − 1 = −2 sin²` of half the angle, so that
+/// the rests keep the digits that many small rotations would round off.
+struct Turn<'a> {
+    y: &'a mut [f64],
+    rest: &'a mut [f64],
 }
 
-impl Turn {
+impl Turn<'_> {
+    #[inline]
+    fn change(&mut self, i: usize, by: f64) {
+        (self.y[i], self.rest[i]) = two_sum(self.y[i], by + self.rest[i]);
+    }
+
+    /// `q ← q (1 + [c, v])`
+    #[inline]
+    fn turn(&mut self, c: f64, v: &Vector3) {
+        let (w, u) = (self.y[0], vector(&self.y[1..]));
+        let by = c * u + w * v + u.cross(v);
+        self.change(0, c * w - u.dot(v));
+        for i in 0..3 {
+            self.change(1 + i, by[i]);
+        }
+    }
+
     /// The flow of `½ r L_i²` for a unit of time: a rotation about the axis i by the angle `r L_i`.
     #[inline]
     fn about_axis(&mut self, i: usize, r: f64) {
-        let (s, c) = libm::sincos(0.5 * r * self.momentum[i]);
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-
-        // q [c, s eᵢ]
-        let (w, v) = (self.q.w, self.q.imag());
-        let mut turned = c * v;
-        turned[i] += s * w;
-        turned[j] += s * v[k];
-        turned[k] -= s * v[j];
-        self.q = Quaternion::from_parts(c * w - s * v[i], turned);
+        let (s4, c4) = libm::sincos(0.25 * r * self.y[4 + i]);
+        let (s, c) = (2.0 * s4 * c4, 1.0 - 2.0 * s4 * s4);
+        let mut axis = Vector3::zeros();
+        axis[i] = s;
+        self.turn(-2.0 * s4 * s4, &axis);
 
         // L seen from the body turns the other way, by the whole angle
-        let (sin, cos) = (2.0 * s * c, (c - s) * (c + s));
-        let (lj, lk) = (self.momentum[j], self.momentum[k]);
-        self.momentum[j] = cos * lj + sin * lk;
-        self.momentum[k] = cos * lk - sin * lj;
+        let (j, k) = (4 + (i + 1) % 3, 4 + (i + 2) % 3);
+        let (sin, less) = (2.0 * s * c, -2.0 * s * s);
+        let (lj, lk) = (self.y[j], self.y[k]);
+        self.change(j, less * lj + sin * lk);
+        self.change(k, less * lk - sin * lj);
     }
 
     /// The flow of `½ a |L|²` for a unit of time: a rotation about L, which stays.
     #[inline]
     fn about_momentum(&mut self, a: f64) {
-        self.q *= quaternion::exp(&(a * self.momentum));
+        let momentum = vector(&self.y[4..]);
+        let length = momentum.norm();
+        if length > 0.0 {
+            let (s4, c4) = libm::sincos(0.25 * a * length);
+            self.turn(-2.0 * s4 * s4, &(2.0 * s4 * c4 / length * momentum));
+        }
     }
 }

@@ -19,6 +19,7 @@ use crate::math::decay::decay_functions;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion};
 use crate::state::BodyMotion;
+use crate::tolerance::STEP_REMAINDER;
 
 /// The order of a method without steps, for the list of methods.
 pub(super) const ORDER: u32 = 0;
@@ -163,7 +164,7 @@ pub struct ClosedFlight<P> {
     /// Reads motions from numbers.
     problem: P,
     motion: Arc<ClosedMotion>,
-    longest: f64,
+    control: Control,
     front: Time,
     since: f64,
     segment: Segment,
@@ -173,12 +174,8 @@ pub struct ClosedFlight<P> {
 impl<P: Problem> ClosedFlight<P> {
     pub(crate) fn new(problem: P, motion: ClosedMotion, control: Control) -> Self {
         let front = motion.begin;
-        let longest = match control {
-            Control::Step(step) => step,
-            Control::Error(limits) => limits.longest,
-        };
         let (segment, counts) = (Segment::default(), Counts::default());
-        Self { problem, motion: Arc::new(motion), longest, front, since: front.value, segment, counts }
+        Self { problem, motion: Arc::new(motion), control, front, since: front.value, segment, counts }
     }
 
     /// Time from the beginning to the front [s].
@@ -200,7 +197,12 @@ impl<P: Problem> Flight for ClosedFlight<P> {
 
     fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
         let left = self.front.until(limit);
-        let h = self.longest.min(left);
+        let h = match &self.control {
+            Control::Step(step) => *step,
+            Control::Error(limits) => limits.longest,
+            Control::Mesh(mesh) => self.front.until(mesh.end_after(self.front.value)),
+        };
+        let h = if h * (1.0 + STEP_REMAINDER) < left { h } else { left };
         self.segment.set_closed(self.front.value, self.since, h, self.elapsed(), self.motion.clone());
         self.front = if h < left { self.front + h } else { Time::new(limit) };
         self.counts.steps += 1;

@@ -147,7 +147,8 @@ impl<P: Problem> Flight for Integration<P> {
         let Self { problem, integrator, front, segment, counts, .. } = self;
         integrator.interpolate(problem, front, segment, counts);
 
-        if segment.is_finite() { Ok(()) } else { Err(FlightError::NotFinite) }
+        self.stale = !segment.is_finite();
+        if self.stale { Err(FlightError::NotFinite) } else { Ok(()) }
     }
 
     fn segment(&self) -> &Segment {
@@ -208,6 +209,7 @@ impl<P: Problem> Flight for Integration<P> {
         self.front.y.as_mut().copy_from_slice(&front.y);
         self.front.rest.as_mut().copy_from_slice(&front.rest);
         self.segment = segment;
+        self.stale = false;
         self.counts = counts;
         self.integrator.restart();
     }

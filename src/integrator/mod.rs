@@ -10,6 +10,7 @@
 //! ```
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::freedom::{Form, RotationSplit, Scales};
@@ -55,7 +56,7 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     }
 
     /// `self = y + a · k`
-    #[inline]
+    #[inline(always)]
     fn set_sum(&mut self, y: &Self, a: f64, k: &Self) {
         for ((s, y), k) in self.as_mut().iter_mut().zip(y.as_ref()).zip(k.as_ref()) {
             *s = y + a * k;
@@ -63,7 +64,7 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     }
 
     /// `self = y + h Σ a_j k_j`
-    #[inline]
+    #[inline(always)]
     fn set_combination<const N: usize>(&mut self, y: &Self, h: f64, terms: [(f64, &Self); N]) {
         let terms = terms.map(|(a, k)| (a, k.as_ref()));
         for (i, (s, y)) in self.as_mut().iter_mut().zip(y.as_ref()).enumerate() {
@@ -76,7 +77,7 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     }
 
     /// `self = h Σ a_j k_j`
-    #[inline]
+    #[inline(always)]
     fn set_increment<const N: usize>(&mut self, h: f64, terms: [(f64, &Self); N]) {
         let terms = terms.map(|(a, k)| (a, k.as_ref()));
         for (i, s) in self.as_mut().iter_mut().enumerate() {
@@ -89,13 +90,13 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     }
 
     /// Whether every number is finite.
-    #[inline]
+    #[inline(always)]
     fn is_finite(&self) -> bool {
         self.as_ref().iter().fold(true, |all, x| all & x.is_finite())
     }
 
     /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
-    #[inline]
+    #[inline(always)]
     fn add_compensated(&mut self, dy: &Self, rest: &mut Self) {
         for ((y, dy), rest) in self.as_mut().iter_mut().zip(dy.as_ref()).zip(rest.as_mut()) {
             (*y, *rest) = two_sum(*y, dy + *rest);
@@ -140,8 +141,8 @@ pub trait Problem: Debug + Send {
     fn depends_on_velocity(&self) -> bool;
 
     /// Advances the motion without loads by `h`, exactly or by a symmetric second-order split of the
-    /// rotation; |L| is kept to rounding.
-    fn flow(&mut self, y: &mut Self::Y, h: f64, split: RotationSplit);
+    /// rotation; |L| is kept to rounding, of which `rest` takes up what is dropped.
+    fn flow(&mut self, y: &mut Self::Y, rest: &mut Self::Y, h: f64, split: RotationSplit);
 
     /// Turns the rates of orientations in `k = f(t, y)` into angular velocities, in the axes of the
     /// form, the first three numbers of an orientation's place; the other numbers stay.
@@ -172,18 +173,41 @@ pub trait Problem: Debug + Send {
 }
 
 /// What decides the length of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Control {
     /// Every step is this long [s].
     Step(f64),
     /// Every step is as long as its error allows.
     Error(Limits),
+    /// Steps as another run took them, cut into pieces.
+    Mesh(Mesh),
+}
+
+/// The steps of another run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// The start and the end of every step, rising [s].
+    pub nodes: Arc<[f64]>,
+    /// How many steps each of them becomes.
+    pub pieces: u32,
+}
+
+impl Mesh {
+    /// Where a step from `t` [s] ends: at the next node, or the next cut between two; infinity after all.
+    fn end_after(&self, t: f64) -> f64 {
+        let next = self.nodes.partition_point(|&node| node <= t);
+        let (Some(&b), true) = (self.nodes.get(next), next > 0) else { return f64::INFINITY };
+        let (a, pieces) = (self.nodes[next - 1], f64::from(self.pieces));
+        let cut = |j: f64| if j < pieces { a + (b - a) * (j / pieces) } else { b };
+
+        // the first cut after t; rounding may have put one on t itself
+        let j = libm::floor((t - a) / (b - a) * pieces);
+        [j, j + 1.0, j + 2.0].into_iter().map(cut).find(|&end| end > t).unwrap_or(b)
+    }
 }
 
 /// How much error a step may make.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// Largest error of a step [-].
     pub local: f64,

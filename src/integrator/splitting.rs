@@ -23,6 +23,8 @@ use crate::state::Moment;
 #[derive(Debug)]
 pub(super) struct Workspace<Y> {
     y: Y,
+    /// What rounding dropped of y within the step.
+    rest: Y,
     stage: Y,
     k: [Y; 4],
     drift: Y,
@@ -31,7 +33,7 @@ pub(super) struct Workspace<Y> {
 impl<Y: StateVector> Workspace<Y> {
     pub(super) fn new(n: usize) -> Self {
         let zeros = || Y::zeros(n);
-        Self { y: zeros(), stage: zeros(), k: std::array::from_fn(|_| zeros()), drift: zeros() }
+        Self { y: zeros(), rest: zeros(), stage: zeros(), k: std::array::from_fn(|_| zeros()), drift: zeros() }
     }
 
     /// The change of `y` in a step of length `h`, made of parts `gammas`.
@@ -45,16 +47,18 @@ impl<Y: StateVector> Workspace<Y> {
         dy: &mut Y,
     ) {
         self.y.clone_from(y);
+        self.rest.as_mut().fill(0.0);
         let mut passed = 0.0;
         self.kick(problem, at, 0.5 * gammas[0] * h);
         for (i, gamma) in gammas.iter().enumerate() {
-            problem.flow(&mut self.y, gamma * h, split);
+            problem.flow(&mut self.y, &mut self.rest, gamma * h, split);
             passed += gamma;
             let next = gammas.get(i + 1).copied().unwrap_or_default();
             let now = if i + 1 == gammas.len() { at.after(h) } else { at.after(passed * h) };
             self.kick(problem, now, 0.5 * (gamma + next) * h);
         }
         dy.set_sum(&self.y, -1.0, y);
+        dy.add_scaled(1.0, &self.rest);
     }
 
     /// Moves the momenta by the loads at the present position.
@@ -62,11 +66,11 @@ impl<Y: StateVector> Workspace<Y> {
         if !problem.is_loaded() {
             return;
         }
-        let Self { y, stage, k: [k1, k2, k3, k4], drift } = self;
+        let Self { y, rest, stage, k: [k1, k2, k3, k4], drift } = self;
         loads(problem, at, y, k1, drift);
         if !problem.depends_on_velocity() {
-            y.add_scaled(h, k1);
-            return;
+            stage.set_increment(h, [(1.0, k1)]);
+            return y.add_compensated(stage, rest);
         }
         stage.set_sum(y, 0.5 * h, k1);
         loads(problem, at, stage, k2, drift);
@@ -74,9 +78,8 @@ impl<Y: StateVector> Workspace<Y> {
         loads(problem, at, stage, k3, drift);
         stage.set_sum(y, h, k3);
         loads(problem, at, stage, k4, drift);
-        for (k, weight) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
-            y.add_scaled(weight * h / 6.0, k);
-        }
+        stage.set_increment(h / 6.0, [(1.0, k1), (2.0, k2), (2.0, k3), (1.0, k4)]);
+        y.add_compensated(stage, rest);
     }
 }
 

@@ -12,7 +12,8 @@ use crate::tolerance::STEP_REMAINDER;
 /// ```
 ///
 /// With [`Control::Step`] steps follow each other from the start or the last hard stop, and the one
-/// before a hard stop is shortened so that it ends there. With [`Control::Error`] the length follows
+/// before a hard stop is shortened so that it ends there; [`Control::Mesh`] prescribes their ends. With
+/// [`Control::Error`] the length follows
 /// the method's own estimate `e` of a step's error, as a part of what is allowed (Gustafsson 1991,
 /// ACM Trans. Math. Softw. 17:533):
 ///
@@ -191,19 +192,23 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
         counts: &mut Counts,
     ) -> Result<(), FlightError> {
         self.begin(problem, front, counts);
-        match self.control {
-            Control::Step(step) => {
-                // cut or stretched by a hair so that it ends on the limit
-                let left = front.time.until(limit);
-                let last = left <= step * (1.0 + STEP_REMAINDER);
-                let h = if last { left } else { step };
-                let time = if last { Time::new(limit) } else { front.time + h };
-                self.attempt(problem, front, h, counts);
-                self.accept(problem, front, time, counts);
-                Ok(())
+        let left = front.time.until(limit);
+        let step = match &self.control {
+            Control::Step(step) => *step,
+            Control::Mesh(mesh) => front.time.until(mesh.end_after(front.time.value)),
+            Control::Error(limits) => {
+                let limits = *limits;
+                return self.advance_controlled(problem, front, limit, &limits, counts);
             }
-            Control::Error(limits) => self.advance_controlled(problem, front, limit, &limits, counts),
-        }
+        };
+
+        // cut or stretched by a hair so that it ends on the limit
+        let last = left <= step * (1.0 + STEP_REMAINDER);
+        let h = if last { left } else { step };
+        let time = if last { Time::new(limit) } else { front.time + h };
+        self.attempt(problem, front, h, counts);
+        self.accept(problem, front, time, counts);
+        Ok(())
     }
 
     fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts) {

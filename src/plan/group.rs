@@ -62,7 +62,7 @@ impl<Y> Group<Y> {
         self.loads.fill(Load::zero());
         for binding in &self.bindings {
             let effect = binding.effect.as_effect();
-            if binding.members.iter().copied().eq(0..self.motions.len()) {
+            if binding.members.len() == self.motions.len() && binding.in_order {
                 effect.add_to(at, &self.motions, &mut self.loads);
                 continue;
             }
@@ -92,7 +92,7 @@ impl<Y: StateVector> Problem for Group<Y> {
         self.charts.len()
     }
 
-    #[inline]
+    #[inline(always)]
     fn rate(&mut self, at: Moment, y: &Y, dy: &mut Y) {
         if self.bindings.is_empty() {
             return self.drift(y, dy);
@@ -108,7 +108,7 @@ impl<Y: StateVector> Problem for Group<Y> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn drift(&mut self, y: &Y, dy: &mut Y) {
         let (y, dy) = (y.as_ref(), dy.as_mut());
         let mut at = 0;
@@ -128,11 +128,11 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn flow(&mut self, y: &mut Y, h: f64, split: RotationSplit) {
-        let (y, mut at) = (y.as_mut(), 0);
+    fn flow(&mut self, y: &mut Y, rest: &mut Y, h: f64, split: RotationSplit) {
+        let (y, rest, mut at) = (y.as_mut(), rest.as_mut(), 0);
         for chart in &self.charts {
             let n = chart.dimension();
-            chart.flow(&mut y[at..at + n], h, split);
+            chart.flow(&mut y[at..at + n], &mut rest[at..at + n], h, split);
             at += n;
         }
     }
@@ -176,7 +176,7 @@ impl<Y: StateVector> Problem for Group<Y> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn project(&mut self, y: &mut Y, rest: &mut Y) -> f64 {
         let (y, rest) = (y.as_mut(), rest.as_mut());
         let (mut at, mut worst) = (0, 0.0_f64);

@@ -62,6 +62,8 @@ impl PlannedBody {
 pub(crate) struct Binding {
     pub(crate) effect: Arc<AnyEffect>,
     pub(crate) members: Vec<usize>,
+    /// Whether the members stand in rising order, so that all of a group's are the group.
+    pub(crate) in_order: bool,
     /// Whether the bodies are seen together; else the effect acts on each alone.
     pub(crate) together: bool,
 }
@@ -79,6 +81,8 @@ pub struct FlightGroup {
     /// Its bodies, as places in the scene; fixed ones among them are only seen by effects.
     pub members: Vec<usize>,
     pub(crate) bindings: Vec<Binding>,
+    /// Whether a load has kinks where a vector is 0.
+    pub(crate) has_kinks: bool,
     /// The method that integrates it.
     pub method: Method,
     /// Why this one.
@@ -87,6 +91,16 @@ pub struct FlightGroup {
     pub switches: Vec<f64>,
     /// The moving bodies that may meet a fixed plane.
     pub(crate) pairs: Vec<Pair>,
+}
+
+impl FlightGroup {
+    /// The vectors at whose zeros loads have kinks, for these motions of the members.
+    pub(crate) fn kinks(&self, motions: &[BodyMotion], kinks: &mut Vec<Vector3>) {
+        for binding in &self.bindings {
+            let effect = binding.effect.as_effect();
+            kinks.extend(binding.members.iter().flat_map(|&i| effect.kinks(&motions[i])).flatten());
+        }
+    }
 }
 
 /// A moving body and a fixed half space that it may meet.
@@ -236,7 +250,7 @@ impl Plan {
             return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
         };
         let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
-        self.flight_for(group, t, control, &motions, &[])
+        self.flight_for(group, t, &control, &motions, &[])
     }
 
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
@@ -246,7 +260,7 @@ impl Plan {
         &self,
         group: usize,
         t: f64,
-        control: Control,
+        control: &Control,
         motions: &[BodyMotion],
         held: &[usize],
     ) -> Result<Box<dyn Flight>> {
@@ -264,9 +278,9 @@ impl Plan {
                 // finer runs look more often, so that what the coarser missed shows in their difference
                 let finer = libm::pow(limits.local / LOOKED_AT_LOCAL, 1.0 / 8.0);
                 let longest = limits.longest.min(finer * self.first_step(limits.scales.time));
-                Control::Error(Limits { longest, ..limits })
+                Control::Error(Limits { longest, ..*limits })
             }
-            other => other,
+            other => other.clone(),
         };
 
         // single bodies have vectors of fixed length, whose loops the compiler unrolls
@@ -290,7 +304,9 @@ impl Plan {
         let starts = (self.groups[group].method == Method::Exact).then(|| self.starts(group, &charts, motions));
         let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
         debug_assert_eq!(problem.dimension(), y.len());
-        if let Some(integrator) = self.groups[group].method.integrator(&problem, control, self.options.projection) {
+        if let Some(integrator) =
+            self.groups[group].method.integrator(&problem, control.clone(), self.options.projection)
+        {
             Box::new(Integration::new(problem, integrator, t, y))
         } else {
             let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
@@ -405,7 +421,8 @@ impl Grouping {
                     leader.iter_mut().filter(|l| **l == second).for_each(|l| *l = first);
                 }
             }
-            bindings.push(Binding { effect: Arc::new(effect.clone()), members, together });
+            let in_order = members.is_sorted();
+            bindings.push(Binding { effect: Arc::new(effect.clone()), members, in_order, together });
         }
         Ok(Self { leader, bindings })
     }
@@ -441,14 +458,24 @@ impl Grouping {
                         members.len() - 1
                     })
                 };
-                let local = wanted.into_iter().map(&mut place).collect();
-                bindings.push(Binding { effect: binding.effect.clone(), members: local, together: binding.together });
+                let local: Vec<usize> = wanted.into_iter().map(&mut place).collect();
+                bindings.push(Binding {
+                    effect: binding.effect.clone(),
+                    in_order: local.is_sorted(),
+                    members: local,
+                    together: binding.together,
+                });
             }
             let mut switches: Vec<f64> = bindings.iter().flat_map(|b| b.effect.as_effect().switches()).collect();
             switches.sort_by(f64::total_cmp);
             switches.dedup();
             let (method, why) = (Method::Exact, String::new());
-            groups.push(FlightGroup { members, bindings, method, why, switches, pairs: Vec::new() });
+            let mut group =
+                FlightGroup { members, bindings, has_kinks: false, method, why, switches, pairs: Vec::new() };
+            let (starts, mut kinks) = (group.members.iter().map(|&i| bodies[i].start).collect::<Vec<_>>(), Vec::new());
+            group.kinks(&starts, &mut kinks);
+            group.has_kinks = !kinks.is_empty();
+            groups.push(group);
         }
         pairs(scene, bodies, options, &mut groups, left_out)?;
         Ok(groups)

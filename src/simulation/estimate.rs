@@ -30,7 +30,7 @@ impl Comparison {
         rounding: f64,
         tolerance: Option<f64>,
     ) -> Self {
-        let divisor = (gain - 1.0).max(1.0);
+        let divisor = gain - 1.0;
         let tolerance = tolerance.unwrap_or(f64::INFINITY);
         let mut comparison = Self { worst: 0.0, within_horizon: 0.0, horizon: fine.end() };
         let common = fine.times().len().min(coarse.times().len());

@@ -24,6 +24,7 @@ pub(crate) mod estimate;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
+mod turn;
 
 pub use run::{Observer, Progress};
 
@@ -94,6 +95,12 @@ struct Lane {
     earlier: Counts,
     /// Motions at the instant under consideration.
     motions: Vec<BodyMotion>,
+    /// Where a load has a kink ahead, at which a step must end [s].
+    kink: Option<f64>,
+    /// How often its place has been corrected.
+    corrections: u32,
+    /// Ends of its steps, from the start on [s].
+    nodes: Vec<f64>,
     /// Place of the lane's phase in the trajectory, and its next sample.
     phase: usize,
     cursor: usize,
@@ -103,7 +110,8 @@ struct Lane {
 #[derive(Debug)]
 pub struct Simulation {
     plan: Arc<Plan>,
-    control: Control,
+    /// What decides the length of the steps, group by group.
+    controls: Vec<Control>,
     time: f64,
     end: f64,
     lanes: Vec<Lane>,
@@ -127,27 +135,34 @@ impl Plan {
         if !t.is_finite() {
             return Err(Error::value("run", "start", "a finite time", t));
         }
-        Simulation::new(Arc::new(self.clone()), Span { start: t, end: f64::INFINITY }, Control::Step(step))
+        Simulation::new(
+            Arc::new(self.clone()),
+            Span { start: t, end: f64::INFINITY },
+            self.controls(&Control::Step(step)),
+        )
     }
 }
 
 impl Simulation {
-    fn new(plan: Arc<Plan>, span: Span, control: Control) -> Result<Self> {
+    fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>) -> Result<Self> {
         let mut lanes = Vec::new();
         for (group, spec) in plan.groups().iter().enumerate() {
             let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            let flight = plan.flight_for(group, span.start, control, &motions, &[])?;
+            let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
             lanes.push(Lane {
                 group,
                 flight,
                 held: Vec::new(),
                 earlier: Counts::default(),
                 motions,
+                kink: None,
+                corrections: 0,
+                nodes: vec![span.start],
                 phase: group,
                 cursor: 0,
             });
         }
-        Ok(Self { plan, control, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
+        Ok(Self { plan, controls, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
     }
 
     /// The plan that runs.
@@ -240,11 +255,21 @@ impl Simulation {
         let lane = &mut self.lanes[index];
         let spec = &plan.groups()[lane.group];
 
-        // a step ends at the next switch or at the end of the run
+        // a step ends at the next switch, at a kink, or at the end of the run
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        if let Err(error) = lane.flight.advance(switch.min(self.end)) {
+        let begin = (plan.tolerance().is_some() && lane.corrections < turn::CORRECTIONS)
+            .then(|| lane.kinks_at_front(spec))
+            .flatten();
+        let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY));
+        if let Err(error) = lane.flight.advance(limit) {
             return Err(self.failure(index, front, error.into()));
+        }
+        if begin.is_some_and(|begin| lane.found_kink(spec, begin)) {
+            return Ok(());
+        }
+        if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {
+            (lane.kink, lane.corrections) = (None, 0);
         }
 
         // the motion within the step, where someone looks at it
@@ -263,6 +288,9 @@ impl Simulation {
             self.iterations += u64::from(iterations);
         }
         let lane = &mut self.lanes[index];
+        if record.is_some() {
+            lane.nodes.push(lane.flight.front());
+        }
         if let (Some(run), true) = (record.as_mut(), looked_at) {
             let mut scratch = Vec::new();
             run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
@@ -399,7 +427,8 @@ impl Simulation {
             trajectory: None,
         };
         let (exact, since) = lane.flight.clock();
-        lane.flight = plan.flight_for(lane.group, time, self.control, motions, &lane.held).map_err(failed)?;
+        lane.flight =
+            plan.flight_for(lane.group, time, &self.controls[lane.group], motions, &lane.held).map_err(failed)?;
         lane.flight.set_clock(exact, since);
         lane.motions.copy_from_slice(motions);
         if let (Some(run), Response::Stick) = (record, pair.material.response) {
@@ -449,6 +478,11 @@ fn approaching(pair: &Pair, motion: &BodyMotion, reach: f64) -> Vec<(usize, Vect
 }
 
 impl Plan {
+    /// The same control for every group.
+    fn controls(&self, control: &Control) -> Vec<Control> {
+        vec![control.clone(); self.groups().len()]
+    }
+
     /// The phase of a group that begins at `t` [s] with these motions.
     fn phase(&self, group: usize, t: f64, motions: &[BodyMotion], held: &[usize]) -> Result<Phase> {
         Ok(Phase {

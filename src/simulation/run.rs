@@ -8,7 +8,7 @@ use super::estimate::{self, Comparison};
 use super::{Failure, RunError, Simulation, SimulationError};
 use crate::error::{Error, Result};
 use crate::freedom::Scales;
-use crate::integrator::{Control, Limits, Method};
+use crate::integrator::{Control, Limits, Mesh, Method};
 use crate::plan::Plan;
 use crate::scene::{RunOptions, Scene, Span};
 use crate::trajectory::Trajectory;
@@ -90,8 +90,9 @@ impl Plan {
     ) -> Result<Trajectory, RunError> {
         let plan = Arc::new(self.clone());
         let began = thread_seconds();
-        let mut run = pass(&plan, span, times, Control::Step(step), 1, observer).map_err(Box::new)?;
+        let mut run = pass(&plan, span, times, plan.controls(&Control::Step(step)), 1, observer).map_err(Box::new)?.0;
         run.report.seconds.run = thread_seconds() - began;
+        run.report.step = step;
         run.report.horizon = run.end;
         run.report.length_scale = estimate::length_scale(&run);
         if !self.options().estimate {
@@ -99,10 +100,10 @@ impl Plan {
         }
 
         let began = thread_seconds();
-        let coarse = pass(&plan, span, times, Control::Step(2.0 * step), 2, observer);
+        let coarse = pass(&plan, span, times, plan.controls(&Control::Step(2.0 * step)), 2, observer);
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
-            Ok(coarse) => {
+            Ok((coarse, _)) => {
                 let gain = libm::pow(2.0, f64::from(self.method().order()));
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
                 run.report.error_estimate = Some(comparison.worst);
@@ -114,8 +115,12 @@ impl Plan {
         Ok(run)
     }
 
-    /// Makes passes with ever smaller steps, or smaller errors of a step, until two of them agree to the
-    /// tolerance.
+    /// Makes passes in threes, each with half the steps of the one before, until they agree to the
+    /// tolerance; the finest is the result.
+    ///
+    /// Where the method controls its error, the steps follow it; else they are all the same. In either
+    /// case a pass cuts every step of another in two, so that its error falls as the method's order says,
+    /// and where it does not, the three show it.
     fn run_to_tolerance(
         &self,
         span: Span,
@@ -129,72 +134,63 @@ impl Plan {
             return Err(Error::value("run", "tolerance", allowed, tolerance).into());
         }
         let plan = Arc::new(self.clone());
-        let knob = Knob::new(self);
-        let mut scales = Scales { length: self.first_length_scale(span), time: span.end - span.start };
-        let mut setting = knob.first(self, span, tolerance);
-        if self.options().estimate {
-            setting *= knob.ratio;
-        }
+        let estimates = self.options().estimate;
+        let mut pace = Pace::first(
+            self,
+            span,
+            tolerance,
+            if estimates { FIRST_LOCAL * trusted(full_gain(self.method())) } else { FIRST_LOCAL },
+        );
         let began = thread_seconds();
-        let mut coarse: Option<(Trajectory, f64)> = None;
-        for number in 1..=PASSES {
-            let before = thread_seconds();
-            let mut failure = None;
-            let mut run = match pass(&plan, span, times, knob.control(setting, scales), number, observer) {
-                Ok(run) => run,
-                Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
-                Err(mut error) => {
-                    // what a coarse step broke, a finer one may mend: the run so far is compared too
-                    let Some(run) = error.trajectory.take() else { return Err(Box::new(error).into()) };
-                    failure = Some(error);
-                    *run
-                }
-            };
-            run.report.tolerance = Some(tolerance);
+        for number in 0..ROUNDS {
+            let (before, mut failure) = (thread_seconds(), None);
+            let (mut run, nodes) =
+                attempt(&plan, span, times, plan.controls(&pace.control), 3 * number + 1, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
-            run.report.horizon = run.end;
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
-            scales.length = run.report.length_scale;
-            let mut estimate = f64::INFINITY;
-            if let Some((coarse, coarse_setting)) = &coarse {
-                let comparison = Comparison::new(
-                    &run,
-                    coarse,
-                    knob.gain(*coarse_setting, setting),
-                    self.rounding(span),
-                    Some(tolerance),
-                );
-                estimate = comparison.worst;
-                run.report.error_estimate = Some(comparison.within_horizon);
-                run.report.estimated_by = knob.estimated_by().into();
-                run.report.met = Some(comparison.worst <= tolerance);
-                run.report.horizon = comparison.horizon;
-            }
 
-            // closed forms and nothing to meet: rounding is all there is
+            // one run is enough where nobody asks for its error, or where rounding is all there is
             let closed = plan.groups().iter().all(|group| group.method == Method::Exact && group.pairs.is_empty());
-            if closed && failure.is_none() {
-                if self.options().estimate {
-                    run.report.error_estimate = Some(self.rounding(span));
-                    run.report.estimated_by = "rounding of the closed form".into();
-                    run.report.met = Some(true);
-                }
-                return Ok(run);
+            if closed && estimates {
+                run.report.error_estimate = Some(self.rounding(span));
+                run.report.estimated_by = "rounding of the closed form".into();
+                run.report.met = Some(failure.is_none());
+            }
+            if closed || !estimates {
+                return finish(run, span, tolerance, &pace, failure);
             }
 
-            // done, or at the end of what is affordable
-            let next = knob.next(setting, tolerance, estimate);
-            let steps = run.report.counts.steps as f64 * knob.longer(setting, next);
-            let given_up = coarse.is_some() && (steps > MOST_STEPS || setting <= knob.least) || number == PASSES;
-            if estimate <= tolerance || given_up || !self.options().estimate {
-                return match failure {
-                    Some(error) => Err(Box::new(SimulationError { trajectory: Some(Box::new(run)), ..error }).into()),
-                    None => Ok(run),
-                };
+            // two steps in one: shows how fast the error falls here, whatever the order says
+            let coarse = run;
+            let doubled =
+                nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: every_second(nodes), pieces: 1 })).collect();
+            let (coarser, _) = attempt(&plan, span, times, doubled, 3 * number + 2, observer, &mut None)?;
+
+            // the same steps, each cut in two
+            let before = thread_seconds();
+            let halved =
+                nodes.into_iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.into(), pieces: 2 })).collect();
+            failure = None;
+            let (mut run, _) = attempt(&plan, span, times, halved, 3 * number + 3, observer, &mut failure)?;
+            run.report.length_scale = estimate::length_scale(&run);
+            run.report.seconds.run = thread_seconds() - before;
+            run.report.seconds.estimate = before - began;
+            let gain = observed_gain(self.method(), &coarser, &coarse, &run);
+            let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
+            run.report.error_estimate = Some(comparison.within_horizon);
+            run.report.estimated_by = "against runs with steps twice and four times as long".into();
+            run.report.met = Some(comparison.worst <= tolerance);
+            let next = pace.finer(self.method(), tolerance, comparison.worst);
+            let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
+            if comparison.worst <= tolerance || pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS {
+                return finish(run, span, tolerance, &pace, failure).map(|mut run| {
+                    run.report.horizon = comparison.horizon;
+                    run
+                });
             }
-            coarse = Some((run, setting));
-            setting = next;
+            pace = next;
+            pace.measure_by(run.report.length_scale);
         }
         Err(Error::refused("run", "no pass was made").into())
     }
@@ -214,113 +210,172 @@ impl Plan {
     }
 }
 
-/// What is turned to make a run finer: the step, or the error allowed in one.
-///
-/// ```text
-/// error of the result ∝ settingᵖ        p the method's order for steps, 1 for a step's error
-/// ```
-struct Knob {
-    controls_error: bool,
-    order: f64,
-    /// How much coarser the run is that the first is compared with [-].
-    ratio: f64,
-    /// The finest setting that makes sense.
-    least: f64,
+/// Completes the report of the run that is kept; what broke it off is handed on with it.
+fn finish(
+    mut run: Trajectory,
+    span: Span,
+    tolerance: f64,
+    pace: &Pace,
+    failure: Option<SimulationError>,
+) -> Result<Trajectory, RunError> {
+    run.report.tolerance = Some(tolerance);
+    run.report.horizon = run.end;
+    let lanes = run.plan().groups().len() as f64;
+    run.report.step = lanes * (span.end - span.start) / (run.report.counts.steps as f64).max(lanes);
+    if let Control::Error(limits) = &pace.control {
+        run.report.local_tolerance = Some(limits.local);
+    }
+    match failure {
+        Some(error) => Err(Box::new(SimulationError { trajectory: Some(Box::new(run)), ..error }).into()),
+        None => Ok(run),
+    }
 }
 
-impl Knob {
-    fn new(plan: &Plan) -> Self {
-        let controls_error = plan.method().controls_error();
-        Self {
-            controls_error,
-            order: f64::from(plan.method().order()),
-            ratio: if controls_error { LOCAL_RATIO } else { 2.0 },
-            least: if controls_error { LEAST_LOCAL } else { 0.0 },
-        }
-    }
-
-    fn first(&self, plan: &Plan, span: Span, tolerance: f64) -> f64 {
-        if self.controls_error { FIRST_LOCAL * tolerance } else { 0.5 * plan.first_step(span.end - span.start) }
-    }
-
-    fn control(&self, setting: f64, scales: Scales) -> Control {
-        if self.controls_error {
-            Control::Error(Limits { local: setting, scales, longest: f64::INFINITY })
-        } else {
-            Control::Step(setting)
-        }
-    }
-
-    /// How many times smaller the error of the finer setting is. A step's error allowed below
-    /// rounding gains nothing.
-    fn gain(&self, coarse: f64, fine: f64) -> f64 {
-        if self.controls_error {
-            ((coarse + LEAST_LOCAL) / (fine + LEAST_LOCAL)).max(1.0) / GAIN_CAUTION
-        } else {
-            libm::pow(coarse / fine, self.order)
-        }
-    }
-
-    /// The setting that should meet the tolerance, where this one left an estimate.
-    fn next(&self, setting: f64, tolerance: f64, estimate: f64) -> f64 {
-        let (power, range) =
-            if self.controls_error { (1.0, (1e-4, 1.0 / self.ratio)) } else { (1.0 / self.order, (1.0 / 32.0, 0.5)) };
-        let shrink = if estimate.is_finite() { libm::pow(SAFETY * tolerance / estimate, power) } else { range.1 };
-        (setting * shrink.clamp(range.0, range.1)).max(self.least)
-    }
-
-    /// How many times more steps another setting takes.
-    fn longer(&self, setting: f64, next: f64) -> f64 {
-        if self.controls_error { libm::pow(setting / next, 1.0 / self.order) } else { setting / next }
-    }
-
-    fn estimated_by(&self) -> &'static str {
-        if self.controls_error {
-            "against a second run that allowed larger errors of a step"
-        } else {
-            "against a second run with a longer step"
+/// One pass; where it breaks off, the run so far, and why in `failure`: what a coarse step broke, a
+/// finer one may mend.
+fn attempt(
+    plan: &Arc<Plan>,
+    span: Span,
+    times: &[f64],
+    controls: Vec<Control>,
+    number: u32,
+    observer: Observer<'_>,
+    failure: &mut Option<SimulationError>,
+) -> Result<(Trajectory, Vec<Vec<f64>>), RunError> {
+    match pass(plan, span, times, controls, number, observer) {
+        Ok(done) => Ok(done),
+        Err(error) if error.kind.is_final() => Err(Box::new(error).into()),
+        Err(mut error) => {
+            let Some(run) = error.trajectory.take() else { return Err(Box::new(error).into()) };
+            *failure = Some(error);
+            let nodes = vec![vec![span.start, span.end]; plan.groups().len()];
+            Ok((*run, nodes))
         }
     }
 }
 
-/// Passes of a run to a tolerance [-]: the first guess and its halving find the order's regime, the
-/// rest comes down to rounding from an estimate at most 2⁻⁵ a pass.
-const PASSES: u32 = 24;
+/// How many times smaller the error is at half the step, where the method shows its order [-].
+fn full_gain(method: Method) -> f64 {
+    libm::pow(2.0, f64::from(method.order()))
+}
+
+/// How far a gain is trusted: a part of it, but the difference of two runs is a bound in any case [-].
+fn trusted(gain: f64) -> f64 {
+    1.0 + ((gain - 1.0) / GAIN_CAUTION).max(1.0)
+}
+
+/// The gain by which the error of the finest of three runs is told, each with half the steps of the one
+/// before. A load with a kink, such as drag at the turn of a motion, costs the method its order; then the
+/// differences fall more slowly, and less is trusted.
+fn observed_gain(method: Method, coarser: &Trajectory, coarse: &Trajectory, fine: &Trajectory) -> f64 {
+    let [first, second] = [(coarse, coarser), (fine, coarse)].map(|(a, b)| Comparison::new(a, b, 2.0, 0.0, None).worst);
+    let seen = if second > 0.0 { first / second } else { f64::INFINITY };
+    trusted(full_gain(method).min(seen))
+}
+
+/// Every second node, and the last.
+fn every_second(nodes: &[f64]) -> Arc<[f64]> {
+    let mut kept: Vec<f64> = nodes.iter().copied().step_by(2).collect();
+    if nodes.len() % 2 == 0 {
+        kept.extend(nodes.last());
+    }
+    kept.into()
+}
+
+/// How fine the middle run of a round is.
+struct Pace {
+    control: Control,
+}
+
+impl Pace {
+    /// The first try: steps whose error is a part of the tolerance, or that follow every body's turning.
+    fn first(plan: &Plan, span: Span, tolerance: f64, part: f64) -> Self {
+        let time = span.end - span.start;
+        if !plan.method().controls_error() {
+            return Self { control: Control::Step(plan.first_step(time)) };
+        }
+        let scales = Scales { length: plan.first_length_scale(span), time };
+        let local = (part * tolerance).clamp(LEAST_LOCAL, MOST_LOCAL);
+        Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
+    }
+
+    /// What should meet the tolerance, where this pace left an estimate.
+    fn finer(&self, method: Method, tolerance: f64, estimate: f64) -> Self {
+        let wanted = if estimate.is_finite() { SAFETY * tolerance / estimate } else { 0.0 };
+        let control = match &self.control {
+            Control::Error(limits) => {
+                let local = (limits.local * wanted.clamp(1e-6, 0.25)).max(LEAST_LOCAL);
+                Control::Error(Limits { local, ..*limits })
+            }
+            Control::Step(step) => {
+                Control::Step(step * libm::pow(wanted, 1.0 / f64::from(method.order())).clamp(1.0 / 32.0, 0.5))
+            }
+            other @ Control::Mesh(_) => other.clone(),
+        };
+        Self { control }
+    }
+
+    /// How many times more steps another pace takes.
+    fn longer(&self, method: Method, other: &Self) -> f64 {
+        match (&self.control, &other.control) {
+            (Control::Error(a), Control::Error(b)) => {
+                libm::pow(a.local / b.local, 1.0 / f64::from(method.order().max(1)))
+            }
+            (Control::Step(a), Control::Step(b)) => a / b,
+            _ => 1.0,
+        }
+    }
+
+    /// Whether rounding forbids to go on.
+    fn is_finest(&self) -> bool {
+        matches!(&self.control, Control::Error(limits) if limits.local <= LEAST_LOCAL)
+    }
+
+    /// Measures positions by this length [m] from now on.
+    fn measure_by(&mut self, length: f64) {
+        if let Control::Error(limits) = &mut self.control {
+            limits.scales.length = length;
+        }
+    }
+}
+
+/// Rounds of three passes to a tolerance [-]: the first guess and its halving find the order's regime, the
+/// rest comes down to rounding from an estimate at most 2⁻⁵ a round.
+const ROUNDS: u32 = 24;
 /// Most steps of a pass [-]; beyond it the tolerance is given up, honestly.
 const MOST_STEPS: f64 = 2.0e7;
-/// Part of the tolerance that the next pass aims at [-].
-const SAFETY: f64 = 0.5;
+/// Part of the tolerance that the next round aims at [-].
+const SAFETY: f64 = 0.25;
 /// Rounding of a run per radian [-]: what random problems of all families leave at most.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// How far above the rounding a tolerance must be [-].
 const FLOOR: f64 = 16.0;
-/// Error of a step that the first pass allows, as a part of the tolerance [-].
-const FIRST_LOCAL: f64 = 0.1;
-/// How many times larger it is in the run to compare with [-]: at order 8 that run costs 0.65 of the other.
-const LOCAL_RATIO: f64 = 32.0;
-/// How far the gain of a smaller error of a step is trusted [-]: by less than it promises by this factor.
+/// Error of a step that meets the tolerance in most scenes, as a part of it [-].
+const FIRST_LOCAL: f64 = 0.3;
+/// By how much less than its order says a halving is trusted [-].
 const GAIN_CAUTION: f64 = 4.0;
 /// Least error of a step that can be told from rounding [-].
 const LEAST_LOCAL: f64 = 1.0e-15;
+/// Largest error of a step in which halving shows the order [-].
+const MOST_LOCAL: f64 = 1.0e-4;
 
-/// One pass over the span, every lane to its end; where one breaks off, the others stop there too.
+/// One pass over the span, and the ends of the steps of every group. Every lane goes to its end; where one breaks off, the others stop there too.
 fn pass(
     plan: &Arc<Plan>,
     span: Span,
     times: &[f64],
-    control: Control,
+    controls: Vec<Control>,
     number: u32,
     observer: Observer<'_>,
-) -> Result<Trajectory, SimulationError> {
+) -> Result<(Trajectory, Vec<Vec<f64>>), SimulationError> {
     let refused = |error: Error| SimulationError {
         time: span.start,
         bodies: Vec::new(),
         kind: Failure::Refused(error.to_string()),
         trajectory: None,
     };
-    let mut simulation = Simulation::new(plan.clone(), span, control).map_err(refused)?;
+    let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
     let mut run = Trajectory::new(plan.clone(), times.to_vec());
-    run.report.control = Some(control);
     for (group, spec) in plan.groups().iter().enumerate() {
         let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
         run.phases.push(plan.phase(group, span.start, &motions, &[]).map_err(refused)?);
@@ -364,7 +419,7 @@ fn pass(
     match broken {
         None => {
             run.end = span.end;
-            Ok(run)
+            Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
         }
         Some(error) => {
             run.events.retain(|event| event.time <= error.time);

@@ -80,8 +80,8 @@ impl Simulation {
         }
         let plan = Arc::new(saved.scene.compile(&saved.options)?);
         let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
-        let mut simulation =
-            Self::new(plan.clone(), Span { start: saved.time, end: f64::INFINITY }, Control::Step(step))?;
+        let span = Span { start: saved.time, end: f64::INFINITY };
+        let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)))?;
         if saved.lanes.len() != simulation.lanes.len() {
             return Err(file_error(path, &"its state does not belong to its scene"));
         }
@@ -107,7 +107,7 @@ impl Lane {
         if saved.motions.len() != self.motions.len() {
             return None;
         }
-        match plan.flight_for(group, saved.front.time.value, Control::Step(step), &saved.motions, &saved.held) {
+        match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
             Ok(flight) => self.flight = flight,
             Err(error) => return Some(Err(error)),
         }
