@@ -25,8 +25,8 @@ mod tests {
 
     #[test]
     fn numbers_keep_four_digits() {
-        let numbers = [0.0, 1.0, -0.5, 3.14159, 1234.56, 99999.0, 1e5, 9.99e-4, -2.5e-9, f64::INFINITY];
-        let texts = ["0", "1", "-0.5", "3.142", "1235", "99999", "1.000e5", "9.990e-4", "-2.500e-9", "inf"];
+        let numbers = [0.0, 1.0, -0.5, 3.14259, 1234.56, 99999.0, 1e5, 9.99e-4, -2.5e-9, f64::INFINITY];
+        let texts = ["0", "1", "-0.5", "3.143", "1235", "99999", "1.000e5", "9.990e-4", "-2.500e-9", "inf"];
         assert_eq!(numbers.map(short), texts);
     }
 }

@@ -1,5 +1,10 @@
 //! What methods of integration promise: their order, their error control, and the bound on the result.
 
+#![allow(clippy::type_complexity, reason = "tables of cases")]
+#![allow(clippy::doc_markdown, reason = "names of methods and people")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
+#![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
+
 use bryla::math::{Matrix3, Vector3, quaternion};
 use bryla::trajectory::Trajectory;
 use bryla::{

@@ -1,5 +1,8 @@
 //! Hard motions and long ones: the middle axis, switches, and drift over many steps.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
+#![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
+
 use bryla::integrator::Control;
 use bryla::integrator::free_rotation::FreeRotation;
 use bryla::math::{Matrix3, Quaternion, Vector3, quaternion};

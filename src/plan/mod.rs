@@ -245,12 +245,12 @@ impl Plan {
     ///
     /// # Errors
     /// A group that the plan does not have.
-    pub fn flight(&self, group: usize, t: f64, control: Control) -> Result<Box<dyn Flight>> {
+    pub fn flight(&self, group: usize, t: f64, control: &Control) -> Result<Box<dyn Flight>> {
         let Some(spec) = self.groups.get(group) else {
             return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
         };
         let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
-        self.flight_for(group, t, &control, &motions, &[])
+        self.flight_for(group, t, &control.clone(), &motions, &[])
     }
 
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`

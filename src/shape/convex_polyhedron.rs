@@ -216,7 +216,6 @@ impl ConvexPolyhedron {
     }
 
     /// The vertices as they were given [m, body axes]; coordinates below 1e-40 of the body's size are 0.
-    #[expect(clippy::misnamed_getters, reason = "the vertices as given are kept under another name")]
     pub fn vertices(&self) -> &[[f64; 3]] {
         &self.vertices
     }
@@ -510,7 +509,6 @@ fn cells_per_side(vertices: usize) -> usize {
 }
 
 /// The cell of the cube of directions that a direction points through.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates; NaN gives cell 0")]
 #[inline]
 fn cube_cell(d: &[f64; 3], cells: usize) -> usize {
     let [x, y, z] = d.map(f64::abs);
@@ -692,7 +690,7 @@ mod tests {
             cloud in prop::collection::vec(prop::array::uniform3(-1.0..1.0f64), 4..400),
             d in prop::array::uniform3(-1.0..1.0f64),
         ) {
-            let round: Vec<[f64; 3]> = cloud.iter().map(|p| unit(p)).collect();
+            let round: Vec<[f64; 3]> = cloud.iter().map(unit).collect();
             let body = ConvexPolyhedron::from_points(&round).unwrap();
             assert_is_linked(&body);
             let best = body.about_center.iter().map(|v| dot(v, &d)).fold(f64::MIN, f64::max);

@@ -276,7 +276,7 @@ fn observed_gain(method: Method, coarser: &Trajectory, coarse: &Trajectory, fine
 /// Every second node, and the last.
 fn every_second(nodes: &[f64]) -> Arc<[f64]> {
     let mut kept: Vec<f64> = nodes.iter().copied().step_by(2).collect();
-    if nodes.len() % 2 == 0 {
+    if nodes.len().is_multiple_of(2) {
         kept.extend(nodes.last());
     }
     kept.into()

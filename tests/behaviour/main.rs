@@ -1,5 +1,8 @@
 //! What bryla promises, as sentences. Each test says where its truth and its tolerance come from.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
+#![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
+
 mod accuracy;
 mod bad_input;
 mod collision;

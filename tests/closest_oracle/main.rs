@@ -8,6 +8,9 @@
 //!
 //! which is 6000 pairs of each family.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
+#![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
+
 mod families;
 mod oracle;
 mod parry;
