@@ -59,7 +59,7 @@ fn step(c: &mut Criterion<ProcessorTime>, group: &str, scene: &Scene, keep: bool
             b.iter(|| {
                 flight.advance(f64::INFINITY).expect("a step");
                 if keep {
-                    flight.interpolate();
+                    flight.interpolate().expect("a finite motion");
                 }
             });
         });
