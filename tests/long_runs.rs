@@ -81,7 +81,7 @@ fn no_step_straddles_a_switch_so_the_order_survives_it() {
 fn drift(method: Method, steps: u32, step: f64) -> (f64, f64, f64) {
     let scene = free_body([0.8, 1.5, 2.1], [0.7, -0.4, 1.1]);
     let plan = scene.compile(&RunOptions::method(method).step(step)).unwrap();
-    let mut flight = plan.flight(0, 0.0, Control::Step(step)).unwrap();
+    let mut flight = plan.flight(0, 0.0, &Control::Step(step)).unwrap();
     let mut motions = [plan.bodies()[0].start];
     let (energy0, length0) = invariants(&motions[0]);
     let (mut energy, mut length) = (0.0_f64, 0.0_f64);

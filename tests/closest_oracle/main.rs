@@ -8,6 +8,7 @@
 //!
 //! which is 6000 pairs of each family.
 
+#![allow(clippy::trivially_copy_pass_by_ref, reason = "the oracle's truth is read, not moved")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
 #![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
 

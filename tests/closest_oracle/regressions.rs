@@ -75,7 +75,7 @@ fn flat_polygons_that_cross() {
     answer(&square, &Pose::identity(), &square, &across, -0.25);
 }
 
-/// mujoco_warp#1430: a small box resting on a box a thousand times larger.
+/// `mujoco_warp#1430`: a small box resting on a box a thousand times larger.
 #[test]
 fn a_small_box_on_a_huge_one() {
     let (ground, small) = (cuboid([50.0, 50.0, 50.0]), cuboid([0.05; 3]));
