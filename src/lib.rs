@@ -1,4 +1,46 @@
-//! Rigid bodies, simulated with an accuracy that you choose and that the library proves and prices.
+//! Rigid bodies, simulated with an accuracy that you choose and that the library estimates and prices.
+//!
+//! ```
+//! use bryla::{Body, Cuboid, RunOptions, Scene, UniformGravity};
+//!
+//! let mut scene = Scene::new();
+//! scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
+//! let die = Body::new("die", Cuboid::new([0.01; 3])).density(1200.0).angular_velocity([20.0, 30.0, 10.0]);
+//! let die = scene.add(die)?;
+//! let run = scene.run(0.0..2.0, &RunOptions::tolerance(1e-9))?;
+//! assert!((run.body(die).position(2.0)?.z + 0.5 * 9.81 * 4.0).abs() < 1e-9);
+//! println!("{}", run.report());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # The flow
+//!
+//! ```text
+//! Scene ──compile──▶ Plan ──start──▶ Simulation ──step──▶ Trajectory ──▶ Report
+//! plain data,        only what it    state + scratch      samples,       error estimate,
+//! to/from file       calls for                            dense motion   cost, events
+//! ```
+//!
+//! [`Scene`] is a description. [`Scene::compile`] checks it once and keeps only what it calls for;
+//! [`Plan::explain`] says what that is. [`Scene::run`] makes a [`Trajectory`] with its [`Report`];
+//! [`Plan::start`] gives a [`Simulation`] to be advanced by hand. [`Scene::compare`] shows what
+//! accuracy costs.
+//!
+//! # What it does not do
+//!
+//! Contact between moving bodies, friction, rest and stacks: such scenes are refused when they are
+//! compiled, or end in a named error that carries the trajectory so far. Bodies are rigid.
+//!
+//! # Map
+//!
+//! - [`guide`]: the lecture with its equation numbers, what accuracy costs, the scene file
+//! - [`shape`], [`mass`]: solids and their mass properties
+//! - [`effect`], [`freedom`]: what acts on bodies, and how they may move
+//! - [`integrator`]: the methods, one file each
+//! - [`closest`], [`impact`], [`contact`]: where bodies meet, when, and what then
+//! - [`math`], [`state`], [`mod@reference`]: rotations, the state Y, exact solutions
+//!
+//! SI units, right-handed axes, radians; quaternions are `(w, x, y, z)` and turn body into world axes.
 
 #![forbid(unsafe_code)]
 
