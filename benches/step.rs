@@ -54,7 +54,7 @@ fn step(c: &mut Criterion<ProcessorTime>, group: &str, scene: &Scene, keep: bool
     let mut group = c.benchmark_group(group);
     for &method in Method::ALL {
         let plan = scene.compile(&RunOptions::method(method).step(0.01)).expect("a valid scene");
-        let mut flight = plan.flight(0, 0.0, Control::Step(0.01)).expect("the first group");
+        let mut flight = plan.flight(0, 0.0, &Control::Step(0.01)).expect("the first group");
         group.bench_function(method.name(), |b| {
             b.iter(|| {
                 flight.advance(f64::INFINITY).expect("a step");

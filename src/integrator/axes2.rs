@@ -1,5 +1,5 @@
-//! Rotations about the three principal axes, one after another (McLachlan 1993; Reich 1994; Touma, Wisdom
-//! 1994).
+//! Rotations about the three principal axes, one after another (Reich 1994, Physica D 76:375; Touma,
+//! Wisdom 1994, Astron. J. 107:1189).
 //!
 //! ```text
 //! H = L₁²/2I₁ + L₂²/2I₂ + L₃²/2I₃        flow(h) = φ₁(½h) φ₂(½h) φ₃(h) φ₂(½h) φ₁(½h)

@@ -1,5 +1,5 @@
-//! Symmetric top and rest (Touma, Wisdom 1994, Astron. J. 107:1189; Dullweber, Leimkuhler, McLachlan
-//! 1997, J. Chem. Phys. 107:5840).
+//! Symmetric top and rest (Touma, Wisdom 1994, Astron. J. 107:1189; Dullweber, Leimkuhler and others 1997,
+//! J. Chem. Phys. 107:5840).
 //!
 //! ```text
 //! H = ½ a |L|² + ½ (1/I_k − a) L_k²  +  ½ (1/I_i − a) L_i²        a = 1/I_j, |1/I_i − 1/I_j| least

@@ -225,12 +225,12 @@ impl Plan {
     ///
     /// # Errors
     /// A group that the plan does not have.
-    pub fn flight(&self, group: usize, t: f64, control: Control) -> Result<Box<dyn Flight>> {
+    pub fn flight(&self, group: usize, t: f64, control: &Control) -> Result<Box<dyn Flight>> {
         let Some(spec) = self.groups.get(group) else {
             return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
         };
         let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
-        self.flight_for(group, t, &control, &motions, &[])
+        self.flight_for(group, t, control, &motions, &[])
     }
 
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
@@ -284,13 +284,11 @@ impl Plan {
         let starts = (self.groups[group].method == Method::Exact).then(|| self.starts(group, &charts, motions));
         let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
         debug_assert_eq!(problem.dimension(), y.len());
-        match self.groups[group].method.integrator(&problem, control.clone(), self.options.projection) {
-            Some(integrator) => Box::new(Integration::new(problem, integrator, t, y)),
-            None => {
-                let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
-                Box::new(ClosedFlight::new(problem, motion, control))
-            }
+        if let Some(integrator) = self.groups[group].method.integrator(&problem, control.clone(), self.options.projection) {
+            return Box::new(Integration::new(problem, integrator, t, y));
         }
+        let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
+        Box::new(ClosedFlight::new(problem, motion, control))
     }
 
     /// A step that follows every body's turning and the span, from which a tolerance is worked out [s].

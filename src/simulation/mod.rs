@@ -246,7 +246,7 @@ impl Simulation {
         if let Err(error) = lane.flight.advance(limit) {
             return Err(self.failure(index, front, error.into()));
         }
-        if begin.is_some_and(|begin| lane.found_kink(spec, begin)) {
+        if begin.is_some_and(|begin| lane.found_kink(spec, &begin)) {
             return Ok(());
         }
         if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {

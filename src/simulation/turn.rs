@@ -38,7 +38,7 @@ impl Lane {
 
     /// Whether a vector turned round within the step; then the step is taken back, to end at the first
     /// such instant when it is taken again.
-    pub(super) fn found_kink(&mut self, spec: &FlightGroup, begin: Begin) -> bool {
+    pub(super) fn found_kink(&mut self, spec: &FlightGroup, begin: &Begin) -> bool {
         let (mut motions, mut kinks) = (self.motions.clone(), Vec::new());
         let mut turned = |motions: &[BodyMotion]| {
             kinks.clear();
