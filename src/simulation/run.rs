@@ -139,7 +139,11 @@ impl Plan {
             self,
             span,
             tolerance,
-            if estimates { FIRST_LOCAL * trusted(full_gain(self.method())) * full_gain(self.method()) } else { FIRST_LOCAL },
+            if estimates {
+                FIRST_LOCAL * trusted(full_gain(self.method())) * full_gain(self.method())
+            } else {
+                FIRST_LOCAL
+            },
         );
         let began = thread_seconds();
         for number in 0..ROUNDS {
