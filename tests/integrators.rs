@@ -279,9 +279,14 @@ fn try_the_bound(seed: u64, count: usize, allowed: usize) {
             let result = run(&scene, [0.0, span], &options);
             let report = result.report();
 
-            // truth: order 8 at fixed steps in which nothing turns by more than 0.02 rad
-            let options = RunOptions { estimate: false, ..RunOptions::method(Method::Dop853).step(span / 3000.0) };
-            let truth = run(&scene, [0.0, span], &options.t_eval(times).record(Record::Samples));
+            // truth: order 8 at fixed steps in which nothing turns by more than 0.02 rad; where drag has
+            // kinks, which fixed steps straddle, another method at the edge of rounding
+            let truth = if name == "hovercraft" {
+                RunOptions { method: Some(Method::Tsit5), ..RunOptions::tolerance(3e-13) }
+            } else {
+                RunOptions { estimate: false, ..RunOptions::method(Method::Dop853).step(span / 3000.0) }
+            };
+            let truth = run(&scene, [0.0, span], &truth.t_eval(times).record(Record::Samples));
             let error = difference(&result, &truth, report.length_scale);
 
             let estimate = report.error_estimate.unwrap();

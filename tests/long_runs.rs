@@ -27,17 +27,16 @@ fn invariants(motion: &BodyMotion) -> (f64, f64) {
 }
 
 #[test]
-fn near_the_middle_axis_the_tolerance_holds_through_many_flips() {
+fn near_the_middle_axis_the_tolerance_holds_up_to_the_horizon() {
     let (moments, spin) = ([1.0, 2.0, 3.0], [1e-6, 1.0, 1e-6]);
     let scene = free_body(moments, spin);
     let truth = closed_form(moments, spin);
-    for method in [Method::Dop853, Method::Tsit5] {
-        let options = RunOptions { method: Some(method), ..RunOptions::tolerance(1e-10) };
-        let run = scene.run([0.0, 150.0], &options.record(Record::Samples)).unwrap();
+    // the closed form holds it through all flips; what is integrated, as long as it says
+    for (method, flips_wanted) in [(None, 6), (Some(Method::Dop853), 1), (Some(Method::Tsit5), 1)] {
+        let options = RunOptions { method, ..RunOptions::tolerance(1e-10) };
+        let run = scene.run([0.0, 300.0], &options.record(Record::Samples)).unwrap();
         let report = run.report();
-        let mut worst = 0.0_f64;
-        let mut flips = 0;
-        let mut side = 1.0;
+        let (mut worst, mut flips, mut side) = (0.0_f64, 0, 1.0);
         for (sample, &t) in run.times().iter().enumerate().filter(|(_, t)| **t <= report.horizon) {
             let (q, momentum) = truth.at(t);
             worst = worst.max(quaternion::angle_between(&q, &run.states(sample)[0].orientation));
@@ -45,10 +44,10 @@ fn near_the_middle_axis_the_tolerance_holds_through_many_flips() {
                 (flips, side) = (flips + 1, -side);
             }
         }
-        println!("{method}: true {worst:.2e}, {flips} flips, {report}");
-        assert_eq!(report.met, Some(true), "{method}");
-        assert!(worst <= report.error_estimate.unwrap() && worst <= 1e-10, "{method}: {worst:.2e}");
-        assert!(flips >= 4, "{method}: {flips} flips only");
+        println!("{method:?}: true {worst:.2e}, {flips} flips, {report}");
+        assert!(worst <= report.error_estimate.unwrap() && worst <= 1e-10, "{method:?}: {worst:.2e}");
+        assert!(flips >= flips_wanted, "{method:?}: {flips} flips only");
+        assert_eq!(report.met, Some(report.horizon >= 300.0), "{method:?}");
     }
 }
 

@@ -139,7 +139,11 @@ impl Plan {
             self,
             span,
             tolerance,
-            if estimates { FIRST_LOCAL * trusted(full_gain(self.method())) } else { FIRST_LOCAL },
+            if estimates {
+                FIRST_LOCAL * trusted(full_gain(self.method())) * full_gain(self.method())
+            } else {
+                FIRST_LOCAL
+            },
         );
         let began = thread_seconds();
         for number in 0..ROUNDS {
@@ -161,18 +165,15 @@ impl Plan {
                 return finish(run, span, tolerance, &pace, failure);
             }
 
-            // two steps in one: shows how fast the error falls here, whatever the order says
-            let coarse = run;
-            let doubled =
-                nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: every_second(nodes), pieces: 1 })).collect();
-            let (coarser, _) = attempt(&plan, span, times, doubled, 3 * number + 2, observer, &mut None)?;
-
-            // the same steps, each cut in two
+            // the same steps, each cut in two, and in four
+            let coarser = run;
+            let nodes: Vec<Arc<[f64]>> = nodes.into_iter().map(Into::into).collect();
+            let cut = |pieces| nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.clone(), pieces })).collect();
+            let (mut coarse, _) = attempt(&plan, span, times, cut(2), 3 * number + 2, observer, &mut None)?;
+            coarse.report.length_scale = coarser.report.length_scale;
             let before = thread_seconds();
-            let halved =
-                nodes.into_iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.into(), pieces: 2 })).collect();
             failure = None;
-            let (mut run, _) = attempt(&plan, span, times, halved, 3 * number + 3, observer, &mut failure)?;
+            let (mut run, _) = attempt(&plan, span, times, cut(4), 3 * number + 3, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
@@ -259,9 +260,10 @@ fn full_gain(method: Method) -> f64 {
     libm::pow(2.0, f64::from(method.order()))
 }
 
-/// How far a gain is trusted: a part of it, but the difference of two runs is a bound in any case [-].
+/// How far a gain is trusted: a part of it; and where there is none, as where rounding rules, both runs
+/// are wrong alike, and four times their difference is taken [-].
 fn trusted(gain: f64) -> f64 {
-    1.0 + ((gain - 1.0) / GAIN_CAUTION).max(1.0)
+    1.0 + ((gain - 1.0) / GAIN_CAUTION).max(0.25)
 }
 
 /// The gain by which the error of the finest of three runs is told, each with half the steps of the one
@@ -273,16 +275,7 @@ fn observed_gain(method: Method, coarser: &Trajectory, coarse: &Trajectory, fine
     trusted(full_gain(method).min(seen))
 }
 
-/// Every second node, and the last.
-fn every_second(nodes: &[f64]) -> Arc<[f64]> {
-    let mut kept: Vec<f64> = nodes.iter().copied().step_by(2).collect();
-    if nodes.len().is_multiple_of(2) {
-        kept.extend(nodes.last());
-    }
-    kept.into()
-}
-
-/// How fine the middle run of a round is.
+/// How fine the first run of a round is.
 struct Pace {
     control: Control,
 }
@@ -350,14 +343,14 @@ const SAFETY: f64 = 0.25;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// How far above the rounding a tolerance must be [-].
 const FLOOR: f64 = 16.0;
-/// Error of a step that meets the tolerance in most scenes, as a part of it [-].
-const FIRST_LOCAL: f64 = 0.3;
+/// Error of a step whose run meets the tolerance in most scenes, as a part of it [-].
+const FIRST_LOCAL: f64 = 0.05;
 /// By how much less than its order says a halving is trusted [-].
 const GAIN_CAUTION: f64 = 4.0;
 /// Least error of a step that can be told from rounding [-].
 const LEAST_LOCAL: f64 = 1.0e-15;
 /// Largest error of a step in which halving shows the order [-].
-const MOST_LOCAL: f64 = 1.0e-4;
+const MOST_LOCAL: f64 = 1.0e-3;
 
 /// One pass over the span, and the ends of the steps of every group. Every lane goes to its end; where one breaks off, the others stop there too.
 fn pass(
