@@ -1,6 +1,6 @@
 //! Runs and tables for other programs: one format, one file.
 //!
-//! Every format writes the same list of [arrays](arrays), so that a name means the same in all of them.
+//! Every format writes the same list of [`arrays`], so that a name means the same in all of them.
 
 use std::fs;
 use std::path::Path;

@@ -119,6 +119,7 @@ impl Segment {
     }
 
     /// Whether the piece describes `n` numbers, as it should where it was read from a file.
+    #[cfg(feature = "serde")]
     pub(crate) fn fits(&self, n: usize) -> bool {
         match &self.curve {
             Curve::Polynomial(c) => [0, n].contains(&self.dimension) && (self.dimension == 0 || c.len() % n == 0),

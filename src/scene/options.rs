@@ -228,6 +228,7 @@ impl RunOptions {
     }
 
     /// Whether nothing is said.
+    #[cfg(feature = "serde")]
     pub(crate) fn is_default(&self) -> bool {
         *self == Self::default()
     }
