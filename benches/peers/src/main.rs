@@ -129,7 +129,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     let (_, exact) = bryla(Method::Exact, END)?;
 
-    println!("| step [s] | contestant | min [ns/step] | median [ns/step] | ratio to rapier's default | error at the end [rad] |");
+    println!(
+        "| step [s] | contestant | min [ns/step] | median [ns/step] | ratio to rapier's default | error at the end [rad] |"
+    );
     println!("|---|---|--:|--:|--:|--:|");
     for steps in STEPS {
         let motions = (MEASURED / steps).max(1);
