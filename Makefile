@@ -18,14 +18,13 @@ rust:
 docs:
 	RUSTDOCFLAGS="-D warnings" cargo doc --quiet --no-deps --all-features
 
-# the wheel that users get, in an environment of its own
+# the wheel, in an environment of its own; built without optimising, since tests need no speed
 $(BIN)/python:
 	$(PYTHON) -m venv $(VENV)
 
 python: $(BIN)/python
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --force-reinstall --no-deps .
-	$(BIN)/python -m pip install --quiet ".[dev]"
+	MATURIN_PEP517_ARGS="--profile dev" $(BIN)/python -m pip install --quiet --force-reinstall ".[dev]"
 	$(BIN)/ruff check python examples
 	$(BIN)/ruff format --check python examples
 	$(BIN)/python -m mypy.stubtest bryla

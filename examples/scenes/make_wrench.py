@@ -24,13 +24,13 @@ BOXES = (HANDLE, HEAD, *JAWS)
 
 
 def inside(box, point):
-    return all(low < x < high for (low, high), x in zip(box, point))
+    return all(low < x < high for (low, high), x in zip(box, point, strict=False))
 
 
 def triangles():
     """Triangles of three points, counterclockwise seen from outside."""
     planes = [sorted({x for box in (*BOXES, HOLE) for x in box[axis]}) for axis in range(3)]
-    cells = [list(zip(p, p[1:])) for p in planes]
+    cells = [list(itertools.pairwise(p)) for p in planes]
 
     def full(i, j, k):
         index = (i, j, k)

@@ -1,7 +1,13 @@
 """Scenes that several tests look at."""
 
+import sys
+from pathlib import Path
+
 import bryla
 import pytest
+
+# the tests read the script that keeps the stubs; behind the installed package, which must be found first
+sys.path.append(str(Path(__file__).parents[1]))
 
 G = (0.0, 0.0, -9.81)
 

@@ -94,7 +94,8 @@ def test_events_tell_the_bounce(run):
     event = run.events[0]
     assert (event.kind, event.bodies) == ("bounce", ("floor", "die"))
     assert event.features.startswith("vertex")
-    assert event.iterations > 0
+    # none where a step ends on the impact
+    assert event.iterations >= 0
     np.testing.assert_array_equal(event.normal, (0, 0, 1))
     assert abs(event.point[2]) < 1e-9
     m = run.plan.bodies[1].mass_properties().mass
@@ -114,7 +115,7 @@ def test_the_report_tells_what_ran(run):
     assert report.met is True
     assert 0 < report.error_estimate <= 1e-7
     assert (report.horizon, report.length_scale > 0.5) == (0.5, True)
-    assert report.estimated_by == "against a second run with a longer step"
+    assert report.estimated_by == "against runs with steps twice and four times as long"
     assert report.counts.steps > 100
     assert report.counts.evaluations >= report.counts.steps
     assert report.counts.rejected >= 0
@@ -368,7 +369,7 @@ def test_a_comparison_tells_order_and_cost():
     assert [row.steps for row in table.rows[:3]] == [100, 200, 400]
     assert table.rows[0].evaluations >= 100
     assert table.reference_error < 1e-9
-    assert "rk4" in table.reference
+    assert table.reference == "the closed form"
     assert str(table).startswith("Error of the end state against ")
     assert table.to_csv().splitlines()[0].startswith("method,step_s,error")
     with pytest.raises(bryla.Error, match="method must be one of"):

@@ -98,6 +98,11 @@ impl Plan {
         if !self.options().estimate {
             return Ok(run);
         }
+        if self.groups().iter().all(|group| group.method == Method::Exact) {
+            run.report.error_estimate = Some(self.rounding(span));
+            run.report.estimated_by = "rounding of the closed form".into();
+            return Ok(run);
+        }
 
         let began = thread_seconds();
         let coarse = pass(&plan, span, times, plan.controls(&Control::Step(2.0 * step)), 2, observer);
