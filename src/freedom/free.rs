@@ -19,7 +19,7 @@ impl Free {
     }
 
     /// Its rotation.
-    pub(super) fn spin(&self) -> &Spin {
+    pub(crate) fn spin(&self) -> &Spin {
         &self.spin
     }
 
@@ -63,8 +63,8 @@ impl Free {
     }
 
     #[inline(always)]
-    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
-        self.spin.project(&mut y[6..], &mut rest[6..])
+    pub(super) fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
+        self.spin.project(&y[6..], &rest[6..], &mut dy[6..])
     }
 
     pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {

@@ -209,11 +209,12 @@ impl Chart {
         }
     }
 
-    /// Puts the orientation back on its sphere (or R on the rotations), lecture §4, with the rest that
-    /// rounding left of it, and returns how far it had strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
+    /// Amends a change `dy` of the numbers, of which rounding left `rest`, so that the orientation ends on
+    /// its sphere (or R on the rotations), lecture §4; returns how far it had strayed: `||q| − 1|` or
+    /// `‖RᵀR − I‖` [-].
     #[inline(always)]
-    pub fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
-        dispatch!(self, c => c.project(y, rest), 0.0)
+    pub fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
+        dispatch!(self, c => c.project(y, rest, dy), 0.0)
     }
 
     /// How far the orientation is off its sphere, as it stands [-].

@@ -91,7 +91,7 @@ impl Planar {
     }
 
     #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn project(&self, _y: &mut [f64], _rest: &mut [f64]) -> f64 {
+    pub(super) fn project(&self, _y: &[f64], _rest: &[f64], _dy: &mut [f64]) -> f64 {
         0.0
     }
 

@@ -100,6 +100,27 @@ pub fn to_matrix(q: &Quaternion) -> Matrix3 {
     )
 }
 
+/// `|q|² R` and `|q|²`, for a formula that divides later.
+#[inline(always)]
+pub fn to_scaled_matrix(q: &Quaternion) -> (Matrix3, f64) {
+    let (w, x, y, z) = (q.w, q.i, q.j, q.k);
+    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
+    let (xy, xz, yz, wx, wy, wz) = (x * y, x * z, y * z, w * x, w * y, w * z);
+    let (wpx, ypz, wmx, ymz) = (ww + xx, yy + zz, ww - xx, yy - zz);
+    let r = Matrix3::new(
+        wpx - ypz,
+        2.0 * (xy - wz),
+        2.0 * (xz + wy), //
+        2.0 * (xy + wz),
+        wmx + ymz,
+        2.0 * (yz - wx), //
+        2.0 * (xz - wy),
+        2.0 * (yz + wx),
+        wmx - ymz,
+    );
+    (r, wpx + ypz)
+}
+
 /// The unit quaternion of a rotation matrix, with `w ≥ 0` where w leads (Shepperd 1978,
 /// J. Guidance Control 1:223).
 ///

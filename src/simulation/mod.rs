@@ -243,10 +243,26 @@ impl Simulation {
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
         self.answer_touches(lane, 0, record)?;
+        if record.is_none() {
+            self.advance_unseen(lane, to)?;
+        }
         while self.lanes[lane].flight.front() < to {
             self.step_lane(lane, record)?;
         }
         Ok(())
+    }
+
+    /// Takes the steps that nobody looks at at once: no samples, nothing to meet, and no switch on the way.
+    fn advance_unseen(&mut self, index: usize, to: f64) -> Result<(), SimulationError> {
+        let (plan, lane) = (&self.plan, &mut self.lanes[index]);
+        let spec = &plan.groups()[lane.group];
+        let front = lane.flight.front();
+        let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
+        if !spec.pairs.is_empty() || plan.tolerance().is_some() || switch <= to {
+            return Ok(());
+        }
+        let taken = lane.flight.advance_past(to, switch.min(self.end));
+        taken.map_err(|error| self.failure(index, front, error.into()))
     }
 
     /// One step of one lane: step, find touching pairs, find the time of impact, respond, record.
