@@ -49,6 +49,7 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
 
     /// A vector of this length to work in, of any content: a `Vec` is taken from here, an array is new, so
     /// that the compiler can hold it in registers.
+    #[must_use]
     fn lend(&mut self) -> Self;
 
     /// Takes back what was lent.
