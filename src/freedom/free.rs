@@ -62,15 +62,6 @@ impl Free {
         self.spin.rate_unloaded(&y[6..], &mut dy[6..]);
     }
 
-    #[inline(always)]
-    pub(super) fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
-        self.spin.project(&y[6..], &rest[6..], &mut dy[6..])
-    }
-
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        self.spin.orientation_error(&y[6..])
-    }
-
     #[inline]
     pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
         let place = vector(e).norm() / scales.length;

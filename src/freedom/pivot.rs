@@ -77,15 +77,6 @@ impl Pivot {
         self.spin.rate_unloaded(y, dy);
     }
 
-    #[inline(always)]
-    pub(super) fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
-        self.spin.project(y, rest, dy)
-    }
-
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        self.spin.orientation_error(y)
-    }
-
     #[inline]
     pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
         self.spin.error_size(y0, y1, e, scales)
