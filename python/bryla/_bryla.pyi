@@ -34,6 +34,7 @@ _Method: TypeAlias = Literal[
     "axes2",
     "cf4",
     "buss2",
+    "radau5",
     "exact",
 ]
 _Response: TypeAlias = Literal["bounce", "stick"]

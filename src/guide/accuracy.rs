@@ -18,7 +18,7 @@
 //! | [`Heun`](crate::integrator::Method::Heun) | 2 | 2 | world axes | the lecture's second |
 //! | [`Rk4`](crate::integrator::Method::Rk4) | 4 | 4 | body axes | short runs with a given step |
 //! | [`Tsit5`](crate::integrator::Method::Tsit5) | 5 | 6 | body axes | steps that follow an error, 1e-3 to 1e-7 |
-//! | [`Dop853`](crate::integrator::Method::Dop853) | 8 | 12 | body axes | the same, below; what a plan takes where there is no closed form |
+//! | [`Dop853`](crate::integrator::Method::Dop853) | 8 | 12 | body axes | the same, below; what a plan takes where there is no closed form and nothing is stiff |
 //! | [`Split2`](crate::integrator::Method::Split2) | 2 | 2 | body axes | long runs: keeps `L`'s length of a free body, and the energy within bounds |
 //! | [`Split4`](crate::integrator::Method::Split4) | 4 | 6 | body axes | the same |
 //! | [`Split6`](crate::integrator::Method::Split6) | 6 | 10 | body axes | the same, loads without velocities |
@@ -26,6 +26,7 @@
 //! | [`Axes2`](crate::integrator::Method::Axes2) | 2 | 2 | body axes | the simplest splitting, rotations about three axes |
 //! | [`Cf4`](crate::integrator::Method::Cf4) | 4 | 4 | world axes | stays on the rotations without projection |
 //! | [`Buss2`](crate::integrator::Method::Buss2) | 2 | 2 | world axes | what games use |
+//! | [`Radau5`](crate::integrator::Method::Radau5) | 5 | 3 an iteration | body axes | stiff loads: strong drag does not dictate the step; what a plan takes where it would |
 //! | [`Exact`](crate::integrator::Method::Exact) | – | 0 | – | free bodies, uniform gravity, linear drag: what a plan takes where it can |
 //!
 //! Order p: half the step, 2ᵖ times less error. An evaluation is one of `Y′` with all loads; the slope at

@@ -26,6 +26,7 @@ pub(crate) mod exact;
 mod flight;
 pub mod free_rotation;
 mod heun;
+mod radau5;
 mod rk4;
 mod segment;
 mod semi_implicit_euler;
@@ -338,7 +339,7 @@ macro_rules! methods {
                 }
             }
 
-            /// Evaluations of f in one step.
+            /// Evaluations of f in one step; of the implicit method in one iteration.
             pub fn evaluations(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
@@ -415,6 +416,8 @@ methods! {
     Cf4 => cf4,
     /// Buss's augmented method, order 2, as games use it.
     Buss2 => buss2,
+    /// Radau IIA, order 5, with error control: implicit, for stiff loads such as strong drag.
+    Radau5 => radau5,
 }
 
 impl Method {
@@ -471,6 +474,11 @@ trait Kernel<Y: StateVector>: Debug + Send {
 
     /// The change of `y` in a step of length `h`; `k0 = f(t, y)` is known.
     fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y);
+
+    /// Evaluations of f that the last step took, that of `k0` included where it is needed.
+    fn evaluations(&self) -> u32 {
+        Self::EVALUATIONS
+    }
 
     /// Estimate of the error of the step just taken, from `y0` to `y1`, as a size [-].
     fn error<P: Problem<Y = Y>>(&mut self, _problem: &mut P, _y0: &Y, _y1: &Y, _h: f64, _scales: &Scales) -> f64 {

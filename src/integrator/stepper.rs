@@ -95,7 +95,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
 
     /// Moves the front's numbers by a step of length `h` from the start.
     #[inline(always)]
-    fn attempt(&mut self, problem: &mut P, front: &mut Front<P::Y>, h: f64, counts: &mut Counts) {
+    fn attempt(&mut self, problem: &mut P, front: &mut Front<P::Y>, h: f64) {
         self.h = h;
         let mut increment = self.increment.lend();
         self.kernel.step(problem, self.at, &front.y, &self.slope, h, &mut increment);
@@ -104,7 +104,12 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         }
         front.y.add_compensated(&increment, &mut front.rest);
         self.increment.take_back(increment);
-        counts.evaluations += u64::from(K::EVALUATIONS) - u64::from(K::NEEDS_SLOPE);
+    }
+
+    /// Counts the evaluations of the step just tried; that of the slope at its start has been counted.
+    #[inline(always)]
+    fn count(&self, counts: &mut Counts) {
+        counts.evaluations += u64::from(self.kernel.evaluations()) - u64::from(K::NEEDS_SLOPE);
     }
 
     /// Completes a step that ends at `time`.
@@ -163,8 +168,9 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
                 return Err(FlightError::StepTooShort(h));
             }
 
-            self.attempt(problem, front, h, counts);
+            self.attempt(problem, front, h);
             let error = self.kernel.error(problem, &self.start, &front.y, h, &limits.scales);
+            self.count(counts);
             let size = if front.y.is_finite() { error / limits.local } else { f64::INFINITY };
             if size == f64::INFINITY
                 && let Some(message) = problem.take_failure()
@@ -220,7 +226,8 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
         let last = left <= step * (1.0 + STEP_REMAINDER);
         let h = if last { left } else { step };
         let time = if last { Time::new(limit) } else { front.time + h };
-        self.attempt(problem, front, h, counts);
+        self.attempt(problem, front, h);
+        self.count(counts);
         self.accept(problem, front, time, counts);
         Ok(())
     }

@@ -44,8 +44,8 @@ impl Scene {
         options: &RunOptions,
         observer: Observer<'_>,
     ) -> Result<Trajectory, RunError> {
-        let began = thread_seconds();
-        let plan = self.compile(options)?;
+        let (began, span) = (thread_seconds(), span.into());
+        let plan = self.compile(&RunOptions { t_span: Some([span.start, span.end]), ..options.clone() })?;
         let compile = thread_seconds() - began;
         let mut result = plan.run_observed(span, observer);
         if let Ok(run) = &mut result {
