@@ -132,22 +132,23 @@ impl Spin {
     pub(super) fn decode(&self, y: &[f64]) -> (Quaternion, Matrix3, Vector3) {
         match self.form {
             Form::WorldQuaternion => {
-                let q = quaternion_at(y);
-                let r = quaternion::to_matrix(&q);
-                (quaternion::normalized(&q), r, self.angular_velocity(&r, &vector(&y[4..])))
+                let q = quaternion::normalized(&quaternion_at(y));
+                let r = quaternion::unit_to_matrix(&q);
+                (q, r, self.angular_velocity(&r, &vector(&y[4..])))
             }
             Form::WorldMatrix => {
                 let r = rotation::polar_factor(&matrix_at(y));
                 (quaternion::from_matrix(&r), r, self.angular_velocity(&r, &vector(&y[9..])))
             }
             Form::Body => {
-                let q = quaternion_at(y);
-                let r = quaternion::to_matrix(&q);
-                let w = r * self.inv_moments.component_mul(&vector(&y[4..]));
-                match &self.axes {
-                    None => (quaternion::normalized(&q), r, w),
-                    Some((axes, matrix)) => (quaternion::normalized(&q) * axes.conjugate(), r * matrix.transpose(), w),
-                }
+                let principal = quaternion::normalized(&quaternion_at(y));
+                let w = self.inv_moments.component_mul(&vector(&y[4..]));
+                let (q, w) = match &self.axes {
+                    None => (principal, w),
+                    Some((axes, matrix)) => (principal * axes.conjugate(), matrix * w),
+                };
+                let r = quaternion::unit_to_matrix(&q);
+                (q, r, r * w)
             }
         }
     }
