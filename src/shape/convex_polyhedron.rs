@@ -443,7 +443,8 @@ fn grouped(count: usize, pairs: &[(u32, u32)]) -> (Vec<u32>, Vec<u32>) {
 }
 
 /// Triangles merged into polygons where they lie on one plane to within `flatness` [m]: each region
-/// grows from its largest triangle. A region whose border is not one simple loop stays in triangles.
+/// grows from its largest triangle. A region that is not bounded by one simple loop, or holds a vertex inside,
+/// stays in triangles.
 fn polygons(vertices: &[[f64; 3]], triangles: &[[u32; 3]], flatness: f64) -> Vec<Vec<u32>> {
     let at = |i: u32| &vertices[i as usize];
     let areas: Vec<[f64; 3]> = triangles.iter().map(|t| area_vector(at(t[0]), at(t[1]), at(t[2]))).collect();
@@ -488,7 +489,9 @@ fn polygons(vertices: &[[f64; 3]], triangles: &[[u32; 3]], flatness: f64) -> Vec
             }
             None => Vec::new(),
         };
-        if walk.len() == border.len() && next.len() == border.len() && walk.len() >= 3 {
+        // one loop, and no vertex inside it: of a body of aspect 1e15 everything looks flat
+        let is_polygon = walk.len() >= 3 && members.len() == walk.len() - 2;
+        if is_polygon && walk.len() == border.len() && next.len() == border.len() {
             loops.push(walk);
         } else {
             loops.extend(members.iter().map(|&f| triangles[f].to_vec()));

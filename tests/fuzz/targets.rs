@@ -112,23 +112,23 @@ pub(crate) fn query(data: &[u8]) {
     let ask = |accuracy| closest_features(&b, &pose_b, &a, &pose_a, None, accuracy).expect("it was asked before");
     for accuracy in [Accuracy::Exact, Accuracy::Relative(1e-6), Accuracy::YesNo] {
         let other = ask(accuracy);
-        assert!(other.lower <= cold.upper && cold.lower <= other.upper, "{a:?} {b:?} {cold:?} {other:?}");
+        assert!(other.lower <= cold.upper && cold.lower <= other.upper, "{cold:?} {other:?} {a:?} {b:?}");
     }
 
     // elsewhere, from the cache of here
     let Ok(warm) = closest_features(&a, &pose_a, &b, &next, Some(&mut cache), Accuracy::Exact) else { return };
     check(&warm, &a, &b);
     let fresh = closest_features(&a, &pose_a, &b, &next, None, Accuracy::Exact).expect("it was asked before");
-    assert!(fresh.lower <= warm.upper && warm.lower <= fresh.upper, "{a:?} {b:?} {warm:?} {fresh:?}");
+    assert!(fresh.lower <= warm.upper && warm.lower <= fresh.upper, "{warm:?} {fresh:?} {a:?} {b:?}");
 }
 
 fn check(found: &ClosestFeatures, a: &Collider, b: &Collider) {
     let numbers = [found.signed_distance, found.point_a.norm(), found.point_b.norm(), found.normal.norm()];
-    assert!(numbers.iter().all(|x| x.is_finite()), "{a:?} {b:?} {found:?}");
-    assert!((found.normal.norm() - 1.0).abs() < 1e-14, "{a:?} {b:?} {found:?}");
-    assert!(found.lower <= found.signed_distance && found.signed_distance <= found.upper, "{a:?} {b:?} {found:?}");
+    assert!(numbers.iter().all(|x| x.is_finite()), "{found:?} {a:?} {b:?}");
+    assert!((found.normal.norm() - 1.0).abs() < 1e-14, "{found:?} {a:?} {b:?}");
+    assert!(found.lower <= found.signed_distance && found.signed_distance <= found.upper, "{found:?} {a:?} {b:?}");
     // what a curved body overlaps may have a circle of ways out
     let all_flat = |c: &Collider| (0..c.part_count()).all(|k| c.polyhedron(k).is_some());
     let may_be_open = found.state == State::Overlapping && !(all_flat(a) && all_flat(b));
-    assert!(found.certified || may_be_open, "{a:?} {b:?} {found:?}");
+    assert!(found.certified || may_be_open, "{found:?} {a:?} {b:?}");
 }
