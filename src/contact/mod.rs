@@ -1,6 +1,11 @@
 //! What happens when a body touches a fixed plane: it bounces, or it sticks (lecture §7).
 
 pub mod bounce;
+pub mod cluster;
+pub mod collision;
+mod friction;
+mod reflection;
+pub mod solver;
 pub mod stick;
 
 use crate::math::Vector3;
