@@ -52,7 +52,7 @@ fn corners(center: Vector3, axis: usize, h: f64) -> [Vector3; 4] {
 }
 
 fn answer(bodies: &[ClusterBody], contacts: &[Contact]) -> Collision {
-    collide(bodies, contacts, Law::default()).unwrap()
+    collide(bodies, contacts, Law::default()).expect("an answer")
 }
 
 fn close(a: &Vector3, b: &Vector3, tolerance: f64) {
@@ -486,15 +486,19 @@ fn what_cannot_be_answered_is_refused_by_name() {
 struct Numbers(u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        x ^ (x >> 31)
+    }
+
+    fn next(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     fn below(&mut self, count: usize) -> usize {
-        (self.next() * count as f64) as usize
+        usize::try_from(self.bits() % count as u64).unwrap_or(0)
     }
 
     fn vector(&mut self, size: f64) -> Vector3 {
@@ -530,7 +534,7 @@ impl Numbers {
 
 /// Asserts what holds for any cluster; returns the residual.
 fn keep_promises(bodies: &[ClusterBody], contacts: &[Contact], law: Law) -> f64 {
-    let hit = collide(bodies, contacts, law).unwrap();
+    let hit = collide(bodies, contacts, law).expect("an answer");
     let start = before(bodies);
     let speed_at = |c: &Contact, v: &[Velocity]| {
         let at = |k: usize| v[k].at(&(c.point - bodies[k].motion.position));
@@ -586,8 +590,11 @@ fn clusters_without_friction_keep_all_promises() {
         assert!(residual < 1e-9, "residual {residual:e}");
         let elastic: Vec<Contact> = contacts.into_iter().map(|c| c.restitution(1.0)).collect();
         let hit = answer(&bodies, &elastic);
+        // in a narrow wedge, hundreds of blows cancel each other: what rounding leaves goes with their sum
+        let blows: f64 = hit.impulses.iter().map(Vector3::norm).sum();
         let change = hit.energy_after - hit.energy_before;
-        assert!(change.abs() <= 1e-12 * (hit.energy_before + 1.0), "{change:e} in {} rounds", hit.rounds);
+        let rounding = 1e-12 * (hit.energy_before + 1.0) + 64.0 * f64::EPSILON * blows * 10.0;
+        assert!(change.abs() <= rounding, "{change:e} in {} rounds, blows {blows:e}", hit.rounds);
     }
 }
 

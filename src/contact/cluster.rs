@@ -272,11 +272,6 @@ impl Frame {
     pub(super) fn vector(&self, components: [f64; 3]) -> Vector3 {
         components[0] * self.0[0] + components[1] * self.0[1] + components[2] * self.0[2]
     }
-
-    /// The components of a vector.
-    pub(super) fn components(&self, vector: &Vector3) -> [f64; 3] {
-        [self.0[0].dot(vector), self.0[1].dot(vector), self.0[2].dot(vector)]
-    }
 }
 
 /// One row of a contact problem: a contact and a direction in which it can push.
