@@ -251,6 +251,20 @@ pub enum ClusterError {
         /// How fast [m/s].
         approach: f64,
     },
+    /// No forces meet the laws of contact: sliding with friction can contradict them (Painlevé 1895).
+    #[error("no forces meet the laws of contact, residual {residual}; an impact without collision is due")]
+    Inconsistent {
+        /// How far the best forces are from meeting them, relative to the largest acceleration [-].
+        residual: f64,
+    },
+    /// Accelerations were not given for each body.
+    #[error("{accelerations} accelerations for {bodies} bodies")]
+    Lengths {
+        /// Number of bodies.
+        bodies: usize,
+        /// Number of accelerations.
+        accelerations: usize,
+    },
 }
 
 /// A contact's frame: normal and two tangents.
@@ -266,6 +280,11 @@ impl Frame {
         axis[k] = 1.0;
         let first = normal.cross(&axis).normalize();
         Self([*normal, first, normal.cross(&first)])
+    }
+
+    /// The components of a vector.
+    pub(super) fn components(&self, vector: &Vector3) -> [f64; 3] {
+        self.0.map(|axis| axis.dot(vector))
     }
 
     /// The vector of these components.
