@@ -34,7 +34,7 @@ pub(super) struct Reflected {
 }
 
 /// Rounds of purely elastic reflections [-]: they end by themselves, mostly after one for each contact, in
-/// wedges after π over the angle (Smith et al. 2012, §4). What is left then is stopped, and loses energy.
+/// wedges after π over the angle. What is left then is stopped, and loses energy.
 const ELASTIC_ROUNDS: u32 = 4096;
 
 /// Rounds for `n` contacts where some are plastic, or rub [-]: these may go on for ever, ever weaker, and the
