@@ -45,7 +45,9 @@ impl Scene {
         observer: Observer<'_>,
     ) -> Result<Trajectory, RunError> {
         let (began, span) = (thread_seconds(), span.into());
-        let plan = self.compile(&RunOptions { t_span: Some([span.start, span.end]), ..options.clone() })?;
+        // the span takes part in the choice of a method; a bad one is refused by the run
+        let t_span = (span.start < span.end && (span.end - span.start).is_finite()).then_some([span.start, span.end]);
+        let plan = self.compile(&RunOptions { t_span, ..options.clone() })?;
         let compile = thread_seconds() - began;
         let mut result = plan.run_observed(span, observer);
         if let Ok(run) = &mut result {
