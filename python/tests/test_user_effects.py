@@ -87,10 +87,9 @@ def test_what_it_raises_is_the_cause(options):
     assert isinstance(error.__cause__, ZeroDivisionError)
     assert error.__cause__.__traceback__ is not None
     assert error.bodies == ["a"]
-    # known is what comes before the step that asked beyond 0.5 s; one under a tolerance may be long
-    assert 0.1 < error.time <= 0.52
+    assert 0.3 < error.time <= 0.52
     assert error.trajectory.end == error.time
-    # what was raised ends the step, and no finer run is tried
+    # a step that breaks is tried twice more, shorter; no finer run is tried
     assert sum(t > 0.5 for t in calls) <= 4
 
 
