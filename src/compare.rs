@@ -90,8 +90,14 @@ impl Scene {
     ) -> Result<ComparisonTable, RunError> {
         let span = span.into();
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
-        let base =
-            RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
+        let base = RunOptions {
+            tolerance: None,
+            t_eval: None,
+            estimate: false,
+            record: Record::End,
+            events: Vec::new(),
+            ..options.run.clone()
+        };
         let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
         let reference = Reference::new(self, span, &steps, &base, observer)?;
 

@@ -53,6 +53,8 @@ _Bodies: TypeAlias = tuple[BodyMotion, ...]
 _Pair: TypeAlias = tuple[_Numbers, _Numbers] | Sequence[_Numbers] | npt.NDArray[Any]
 _Loads: TypeAlias = Callable[[float, _Bodies], _Pair] | Callable[[float, _Bodies], Iterable[_Pair]]
 _Energy: TypeAlias = Callable[[float, _Bodies], float]
+_Measure: TypeAlias = Callable[[float, _Bodies], _Number] | str | dict[str, Any]
+_Direction: TypeAlias = Literal["rising", "falling", "both"]
 __version__: Final[str]
 METHODS: Final[tuple[str, ...]]
 
@@ -835,6 +837,31 @@ class UserEffect:
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
+class UserEvent:
+    def __new__(
+        cls,
+        name: str,
+        measure: _Measure,
+        bodies: Iterable[str],
+        value: _Number = 0.0,
+        direction: _Direction = "both",
+        terminal: bool = False,
+    ) -> UserEvent: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def measure(self) -> _Measure: ...
+    @property
+    def bodies(self) -> list[str]: ...
+    @property
+    def value(self) -> float: ...
+    @property
+    def direction(self) -> str: ...
+    @property
+    def terminal(self) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
 class Planar:
     """Motion in a plane through the body's start: 3 degrees of freedom.
 
@@ -1135,6 +1162,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        events: Iterable[UserEvent] | None = None,
     ) -> Plan:
         """Checks the scene and keeps what it calls for: a Plan. The options are those of `run`."""
 
@@ -1156,6 +1184,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        events: Iterable[UserEvent] | None = None,
         progress: bool = False,
     ) -> Trajectory:
         """Runs the scene over a span, and returns its Trajectory.
@@ -1325,6 +1354,8 @@ class Trajectory:
         """How far the motion is known [s]."""
 
     @property
+    def ended_by(self) -> str | None: ...
+    @property
     def names(self) -> list[str]:
         """Names of the bodies, in the order of the body axis."""
 
@@ -1492,6 +1523,10 @@ class Event:
     def kind(self) -> str:
         """What: "bounce" or "stick"."""
 
+    @property
+    def name(self) -> str: ...
+    @property
+    def passage(self) -> str | None: ...
     @property
     def bodies(self) -> tuple[str, str]:
         """Names of the two bodies."""
