@@ -73,7 +73,7 @@ def test_mistakes_are_told():
         bryla.UserEvent("e", "sped", ["ball"])
     with pytest.raises(TypeError, match="a callable, a name or a dict"):
         bryla.UserEvent("e", {"altitude": UP}, ["ball"])
-    with pytest.raises(bryla.Error, match="direction must be one of rising, falling, both, got \"up\""):
+    with pytest.raises(bryla.Error, match='direction must be one of rising, falling, both, got "up"'):
         bryla.UserEvent("e", "speed", ["ball"], direction="up")
     with pytest.raises(bryla.Error, match="there is ball"):
         throw().run((0, 1), events=[bryla.UserEvent("e", "speed", ["bal"])])
