@@ -90,7 +90,7 @@ impl PyScene {
     /// Checks the scene and keeps what it calls for: a Plan. The options are those of `run`.
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None)"
+        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, events=None)"
     )]
     fn compile(&self, options: Option<&Bound<'_, PyDict>>) -> Result<PyPlan> {
         let options = run_options(&self.0.run, "compile", options)?;
@@ -137,6 +137,8 @@ impl PyScene {
     ///     How the time of contact is found; "secant" by default.
     /// eps : float, optional
     ///     Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
+    /// events : list of UserEvent, optional
+    ///     What is watched for.
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     ///
@@ -153,7 +155,7 @@ impl PyScene {
     ///     The tolerance is not met over the whole span; report.horizon says up to when it is.
     #[pyo3(
         signature = (t_span=None, *, progress=false, **options),
-        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, progress=False)"
+        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, events=None, progress=False)"
     )]
     fn run(
         &self,
@@ -204,7 +206,7 @@ impl PyScene {
         progress: bool,
         options: Option<&Bound<'_, PyDict>>,
     ) -> Result<PyComparisonTable> {
-        for name in ["tolerance", "method", "step", "t_eval", "estimate", "record"] {
+        for name in ["tolerance", "method", "step", "t_eval", "estimate", "record", "events"] {
             if options.is_some_and(|options| options.contains(name).unwrap_or(false)) {
                 let message = format!("compare() got an unexpected keyword argument '{name}'");
                 return Err(PyTypeError::new_err(message).into());

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::event::UserEvent;
 use crate::error::{Error, Result};
 pub use crate::impact::Finder;
 use crate::integrator::Method;
@@ -123,6 +124,9 @@ pub struct RunOptions {
     /// Gap at which a contact is accepted [m]; 1e-12 of the pair's size if absent.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub eps: Option<f64>,
+    /// What is watched for.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub events: Vec<UserEvent>,
 }
 
 impl Default for RunOptions {
@@ -140,6 +144,7 @@ impl Default for RunOptions {
             projection: true,
             finder: Finder::Secant,
             eps: None,
+            events: Vec::new(),
         }
     }
 }
@@ -227,6 +232,18 @@ impl RunOptions {
         self
     }
 
+    /// One more event that is watched for.
+    #[must_use]
+    pub fn event(mut self, event: UserEvent) -> Self {
+        self.events.push(event);
+        self
+    }
+
+    /// Whether an event may end the run.
+    pub(crate) fn may_end_early(&self) -> bool {
+        self.events.iter().any(|event| event.terminal)
+    }
+
     /// Whether nothing is said.
     #[cfg(feature = "serde")]
     pub(crate) fn is_default(&self) -> bool {
@@ -258,7 +275,16 @@ impl RunOptions {
         if let Some(span) = self.t_span {
             self.times(span.into())?;
         }
-        Ok(())
+        self.events.iter().try_for_each(UserEvent::validate)
+    }
+
+    /// Refuses options that have no text.
+    #[cfg(feature = "serde")]
+    pub(crate) fn check_writable(&self) -> Result<()> {
+        match self.events.iter().find(|event| matches!(event.measure, crate::measure::Measure::Function(_))) {
+            Some(event) => Err(Error::refused(event.place(), "a function is code and cannot be written to a file")),
+            None => Ok(()),
+        }
     }
 
     /// The times of the samples [s] of a run over `span`.

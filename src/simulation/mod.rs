@@ -21,6 +21,7 @@ use crate::trajectory::{Event, EventKind, Phase, Trajectory};
 
 pub(crate) mod clock;
 pub(crate) mod estimate;
+mod observe;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
@@ -58,6 +59,15 @@ pub enum Failure {
     /// The time of an impact cannot be resolved to ε.
     #[error("Stalled: no instant with a gap in 0..=ε = {0:e} m can be told; give a larger eps")]
     Stalled(f64),
+    /// The measure of a user's event gave up, or is not a number: the event, and why.
+    #[error("event {0}: {1}")]
+    UserEvent(String, String),
+    /// The measure of a user's event is too rough for its roots to be told apart.
+    #[error("UnresolvedEvent: event {0}: its measure must be a smooth function of the motion")]
+    UnresolvedEvent(String),
+    /// A user's event happens ever faster.
+    #[error("AccumulatingEvents: event {0} happens again and again without end, ever faster")]
+    AccumulatingEvents(String),
     /// The scene cannot be set up.
     #[error("{0}")]
     Refused(String),
@@ -69,7 +79,7 @@ pub enum Failure {
 impl Failure {
     /// Whether it is the caller's own doing, which no other step would mend.
     pub(crate) fn is_final(&self) -> bool {
-        matches!(self, Self::Interrupted | Self::Flight(FlightError::UserEffect(_)))
+        matches!(self, Self::Interrupted | Self::Flight(FlightError::UserEffect(_)) | Self::UserEvent(..))
     }
 }
 
@@ -104,6 +114,8 @@ struct Lane {
     /// Place of the lane's phase in the trajectory, and its next sample.
     phase: usize,
     cursor: usize,
+    /// What is known of the user's events, in the order of the group's.
+    watchers: Vec<observe::Watcher>,
 }
 
 /// A running scene.
@@ -116,6 +128,8 @@ pub struct Simulation {
     end: f64,
     lanes: Vec<Lane>,
     events: Vec<Event>,
+    /// When a user's event ends the run [s], and which.
+    ended: Option<(f64, String)>,
     iterations: u64,
 }
 
@@ -134,6 +148,10 @@ impl Plan {
         };
         if !t.is_finite() {
             return Err(Error::value("run", "start", "a finite time", t));
+        }
+        if let Some(event) = self.options().events.iter().find(|event| event.terminal) {
+            let reason = "terminal: a simulation that is advanced by hand is ended by hand; its events tell when";
+            return Err(Error::refused(event.place(), reason));
         }
         Simulation::new(
             Arc::new(self.clone()),
@@ -160,9 +178,11 @@ impl Simulation {
                 nodes: vec![span.start],
                 phase: group,
                 cursor: 0,
+                watchers: vec![observe::Watcher::default(); spec.watches.len()],
             });
         }
-        Ok(Self { plan, controls, time: span.start, end: span.end, lanes, events: Vec::new(), iterations: 0 })
+        let (events, ended) = (Vec::new(), None);
+        Ok(Self { plan, controls, time: span.start, end: span.end, lanes, events, ended, iterations: 0 })
     }
 
     /// The plan that runs.
@@ -258,7 +278,7 @@ impl Simulation {
         let spec = &plan.groups()[lane.group];
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        if !spec.pairs.is_empty() || plan.tolerance().is_some() || switch <= to {
+        if !spec.pairs.is_empty() || !spec.watches.is_empty() || plan.tolerance().is_some() || switch <= to {
             return Ok(());
         }
         let taken = lane.flight.advance_past(to, switch.min(self.end));
@@ -290,7 +310,7 @@ impl Simulation {
 
         // the motion within the step, where someone looks at it
         let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
-        if (looked_at || !spec.pairs.is_empty())
+        if (looked_at || !spec.pairs.is_empty() || !spec.watches.is_empty())
             && let Err(error) = lane.flight.interpolate()
         {
             return Err(self.failure(index, front, error.into()));
@@ -303,6 +323,7 @@ impl Simulation {
             lane.flight.cut(offset);
             self.iterations += u64::from(iterations);
         }
+        self.observe(index)?;
         let lane = &mut self.lanes[index];
         if record.is_some() {
             lane.nodes.push(lane.flight.front());
@@ -459,6 +480,8 @@ impl Simulation {
                 Response::Bounce => EventKind::Bounce,
                 Response::Stick => EventKind::Stick,
             },
+            name: String::new(),
+            passage: None,
             bodies: [pair.obstacle, body],
             point,
             normal: pair.plane.normal,

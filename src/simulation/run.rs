@@ -295,10 +295,11 @@ impl Course<'_> {
         let mut broken: Option<SimulationError> = None;
         let lanes = simulation.lanes.len();
         for lane in 0..lanes {
-            let to = broken.as_ref().map_or(span.end, |error| error.time);
+            let stop = broken.as_ref().map_or(span.end, |error| error.time);
+            let to = |simulation: &Simulation| simulation.ended.as_ref().map_or(stop, |(time, _)| time.min(stop));
             let mut record = Some(&mut run);
             let mut ended = simulation.answer_touches(lane, 0, &mut record);
-            while ended.is_ok() && simulation.lanes[lane].flight.front() < to {
+            while ended.is_ok() && simulation.lanes[lane].flight.front() < to(&simulation) {
                 ended = simulation.step_lane(lane, &mut record);
                 let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
                 let progress = Progress { fraction: (lane as f64 + done) / lanes as f64, pass: number };
@@ -307,6 +308,7 @@ impl Course<'_> {
                     ended = Err(simulation.failure(lane, time, Failure::Interrupted));
                 }
             }
+            let to = to(&simulation);
             let lane = &mut simulation.lanes[lane];
             let mut motions = lane.motions.clone();
             lane.flight.at(lane.flight.front(), &mut motions);
@@ -327,14 +329,18 @@ impl Course<'_> {
         run.report.impact_iterations = simulation.iterations;
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
-        match broken {
+        // an event that ends the run goes before what broke off behind it
+        let early = simulation.ended.filter(|(time, _)| broken.as_ref().is_none_or(|error| *time <= error.time));
+        match broken.filter(|_| early.is_none()) {
             None => {
                 run.end = span.end;
+                run.close(early);
                 Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
             }
             Some(error) => {
                 run.events.retain(|event| event.time <= error.time);
                 run.cut(error.time);
+                run.close(None);
                 Err(SimulationError { trajectory: Some(Box::new(run)), ..error })
             }
         }

@@ -33,6 +33,8 @@ struct SavedLane {
     earlier: Counts,
     held: Vec<usize>,
     motions: Vec<BodyMotion>,
+    #[serde(default)]
+    watchers: Vec<super::observe::Watcher>,
 }
 
 /// Version of the file's layout.
@@ -44,7 +46,7 @@ impl Simulation {
     /// # Errors
     /// A scene with user effects, and a file that cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        self.plan.scene().check_writable()?;
+        self.plan.check_writable()?;
         let lanes = self.lanes.iter().map(|lane| SavedLane {
             front: lane.flight.saved_front(),
             segment: lane.flight.segment().clone(),
@@ -52,6 +54,7 @@ impl Simulation {
             earlier: lane.earlier,
             held: lane.held.clone(),
             motions: lane.motions.clone(),
+            watchers: lane.watchers.clone(),
         });
         let saved = Saved {
             bryla: VERSION.to_owned(),
@@ -104,7 +107,7 @@ impl Lane {
         step: f64,
         saved: SavedLane,
     ) -> Option<Result<()>> {
-        if saved.motions.len() != self.motions.len() {
+        if saved.motions.len() != self.motions.len() || saved.watchers.len() != self.watchers.len() {
             return None;
         }
         match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
@@ -119,6 +122,7 @@ impl Lane {
         self.earlier = saved.earlier;
         self.held = saved.held;
         self.motions = saved.motions;
+        self.watchers = saved.watchers;
         Some(Ok(()))
     }
 }

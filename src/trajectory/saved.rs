@@ -26,6 +26,7 @@ struct Saved<'a> {
     events: Cow<'a, [Event]>,
     report: Cow<'a, Report>,
     end: f64,
+    ended_by: Option<Cow<'a, str>>,
 }
 
 impl Saved<'_> {
@@ -48,7 +49,7 @@ impl Saved<'_> {
 impl Serialize for Trajectory {
     /// Refuses the trajectory of a scene with user effects, which are code.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.plan.scene().check_writable().map_err(S::Error::custom)?;
+        self.plan.check_writable().map_err(S::Error::custom)?;
         let saved = Saved {
             scene: Cow::Borrowed(self.plan.scene()),
             options: Cow::Borrowed(self.plan.options()),
@@ -58,6 +59,7 @@ impl Serialize for Trajectory {
             events: Cow::Borrowed(&self.events),
             report: Cow::Borrowed(&self.report),
             end: self.end,
+            ended_by: self.ended_by.as_deref().map(Cow::Borrowed),
         };
         saved.serialize(serializer)
     }
@@ -79,6 +81,7 @@ impl<'de> Deserialize<'de> for Trajectory {
             events: saved.events.into_owned(),
             report: saved.report.into_owned(),
             end: saved.end,
+            ended_by: saved.ended_by.map(Cow::into_owned),
         })
     }
 }
