@@ -166,15 +166,25 @@ fn find<R: Real>(
     steps: &mut u32,
 ) -> Outcome<R> {
     let gap = gap_of(accuracy, gap) * pair.size();
-    let (bounds, core) = match search::search(pair, start, toward, gap, steps, is_known_apart(pair, rounding, accuracy))
-    {
-        Found::Apart(bounds) => (bounds, None),
-        Found::Inside(simplex) => {
-            let (bounds, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
-            (bounds, Some(core))
-        }
+    let found = search::search(pair, start, toward, gap, steps, is_known_apart(pair, rounding, accuracy));
+    let (apart, simplex) = match found {
+        Found::Apart(bounds) => return Outcome { bounds, core: None, rung: Rung::Searched },
+        Found::Open(bounds, simplex) => (Some(bounds), simplex),
+        Found::Inside(simplex) => (None, simplex),
     };
-    Outcome { bounds, core, rung: Rung::Searched }
+    let (deep, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
+    let width = |b: &Bounds<R>| upper_bound(pair, b) - b.lower;
+    match apart {
+        Some(bounds) if width(&bounds) <= width(&deep) => Outcome { bounds, core: None, rung: Rung::Searched },
+        _ => Outcome { bounds: deep, core: Some(core), rung: Rung::Searched },
+    }
+}
+
+/// The upper bound that holds, but for the pair's error: a ball around the origin is proved only where its
+/// radius exceeds the error.
+#[inline]
+fn upper_bound<R: Real>(pair: &impl Difference<R>, found: &Bounds<R>) -> R {
+    if found.upper < -R::from(pair.error()) { found.upper } else { found.point.norm() }
 }
 
 /// The answer in the world, with its interval.
@@ -188,9 +198,8 @@ fn describe<R: Real>(
     steps: u32,
     rung: Rung,
 ) -> ClosestFeatures {
-    // the interval of the cores; a ball around the origin is proved only where its radius exceeds the error
-    let error = R::from(pair.error());
-    let upper = if found.upper < -error { found.upper } else { found.point.norm() };
+    // the interval of the cores
+    let (error, upper) = (R::from(pair.error()), upper_bound(pair, found));
     let rounding = R::from(views[0].rounding + views[1].rounding);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
     let certified = is_certified(lower, upper, accuracy, pair.error(), pair.size());

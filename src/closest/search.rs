@@ -24,6 +24,8 @@ pub(super) enum Found<R> {
     Apart(Bounds<R>),
     /// The origin is in the simplex or on it, to rounding.
     Inside(Simplex<R>),
+    /// Rounding stopped the search before either was proved: what was, and the last simplex.
+    Open(Bounds<R>, Simplex<R>),
 }
 
 /// Bounds of the signed distance and where they come from.
@@ -60,6 +62,8 @@ pub(super) fn search<R: Real>(
     let gap = R::from(gap);
     let noise = R::from(pair.error());
     let mut best: Option<Bounds<R>> = None;
+    let mut closed = false;
+    let mut last: ([Ids; 4], usize) = Default::default();
     for _ in 0..ROUNDS {
         *steps += 1;
         let Closest::At { point, normal } = simplex.reduce() else {
@@ -78,6 +82,10 @@ pub(super) fn search<R: Real>(
         {
             break; // rounding stopped the fall
         }
+        if simplex.ids[..simplex.count] == last.0[..last.1] {
+            break; // the last point was dropped again
+        }
+        last = (simplex.ids, simplex.count);
 
         let (ids, height) = pair.lowest(&normal, hint.or(Some(simplex.ids[0])));
         hint = Some(ids);
@@ -88,12 +96,17 @@ pub(super) fn search<R: Real>(
         if is_enough || best.as_ref().is_none_or(|b| upper - found.lower < b.upper - b.lower) {
             best = Some(found);
         }
-        if closes || is_enough || simplex.contains(ids) {
+        closed = closes || is_enough;
+        if closed || simplex.contains(ids) {
             break;
         }
         simplex.push(ids, pair.difference(ids));
     }
-    best.map_or(Found::Inside(simplex), Found::Apart)
+    match best {
+        Some(best) if closed || best.lower > noise => Found::Apart(best),
+        Some(best) => Found::Open(best, simplex),
+        None => Found::Inside(simplex),
+    }
 }
 
 /// Bounds from the given points of the difference, if one look around shows that they still carry the
