@@ -44,6 +44,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod batch;
 #[cfg(feature = "serde")]
 pub mod catalogue;
 #[cfg(feature = "cli")]
@@ -72,10 +73,12 @@ mod text;
 pub mod tolerance;
 pub mod trajectory;
 
+pub use batch::Batch;
 pub use compare::{CompareOptions, ComparisonTable};
 pub use contact::Response;
 pub use effect::{
-    AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench,
+    AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Switch, Thruster, UniformGravity, UserEffect,
+    Wrench,
 };
 pub use error::{Error, Result};
 pub use freedom::Freedom;

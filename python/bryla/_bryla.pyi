@@ -627,7 +627,12 @@ class Thruster:
     """
 
     def __new__(
-        cls, body: str, point_body: _Numbers, force_body: _Numbers, schedule: _Rows | None = None
+        cls,
+        body: str,
+        point_body: _Numbers,
+        force_body: _Numbers,
+        schedule: _Rows | None = None,
+        switch: Switch | None = None,
     ) -> Thruster: ...
     @property
     def body(self) -> str:
@@ -645,6 +650,8 @@ class Thruster:
     def schedule(self) -> list[tuple[float, float]] | None:
         """Pairs (time [s], factor), or None."""
 
+    @property
+    def switch(self) -> Switch | None: ...
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
@@ -835,6 +842,44 @@ class UserEffect:
         """The potential energy: energy(t, bodies) -> float, or None."""
 
     def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Switch:
+    def __new__(cls, measure: _Measure, on: _Number, off: _Number, starts_on: bool = False) -> Switch: ...
+    @property
+    def measure(self) -> _Measure: ...
+    @property
+    def on(self) -> float: ...
+    @property
+    def off(self) -> float: ...
+    @property
+    def starts_on(self) -> bool: ...
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Batch:
+    def __new__(
+        cls,
+        mass: npt.ArrayLike,
+        inertia: npt.ArrayLike,
+        *,
+        position: npt.ArrayLike | None = None,
+        orientation: npt.ArrayLike | None = None,
+        velocity: npt.ArrayLike | None = None,
+        angular_velocity: npt.ArrayLike | None = None,
+    ) -> Batch: ...
+    def advance(self, step: _Number, steps: SupportsIndex, *, threads: SupportsIndex | None = None) -> None: ...
+    @property
+    def position(self) -> _Array: ...
+    @property
+    def orientation(self) -> _Array: ...
+    @property
+    def velocity(self) -> _Array: ...
+    @property
+    def angular_velocity(self) -> _Array: ...
+    @property
+    def kinetic_energy(self) -> _Array: ...
+    def __len__(self) -> int: ...
 
 @final
 class UserEvent:

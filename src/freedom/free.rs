@@ -2,6 +2,7 @@
 
 use super::Scales;
 use super::spin::{Form, RotationSplit, Spin, put, vector};
+use crate::math::Vector3;
 use crate::math::sum::two_sum;
 use crate::state::{BodyMotion, BodyState, Load};
 
@@ -21,6 +22,11 @@ impl Free {
     /// Its rotation.
     pub(crate) fn spin(&self) -> &Spin {
         &self.spin
+    }
+
+    /// The inverses of its mass [1/kg] and of its principal moments [1/(kg·m²)].
+    pub(crate) fn inverses(&self) -> (f64, &Vector3) {
+        (self.inv_mass, self.spin.inv_moments())
     }
 
     #[inline]

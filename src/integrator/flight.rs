@@ -95,6 +95,9 @@ pub trait Flight: Debug + Send {
     /// As [`interpolate`](Self::interpolate).
     fn pass_switch(&mut self) -> Result<(), FlightError>;
 
+    /// Leaves out the loads at these places from the front on, and no others; a closed form has none to leave out.
+    fn leave_out(&mut self, _loads: &[usize]) {}
+
     /// What has been done so far.
     fn counts(&self) -> &Counts;
 
@@ -215,6 +218,12 @@ impl<P: Problem> Flight for Integration<P> {
         self.front.since = self.front.time.value;
         self.integrator.restart();
         Ok(())
+    }
+
+    fn leave_out(&mut self, loads: &[usize]) {
+        if self.problem.leave_out(loads) {
+            self.integrator.restart();
+        }
     }
 
     fn counts(&self) -> &Counts {

@@ -199,6 +199,9 @@ pub trait Problem: Debug + Send {
     /// The motion of every body, read from the numbers.
     fn decode(&self, y: &[f64], motions: &mut [BodyMotion]);
 
+    /// Leaves out the loads at these places, and no others; whether that is a change.
+    fn leave_out(&mut self, loads: &[usize]) -> bool;
+
     /// What a user's function complained about, once.
     fn take_failure(&mut self) -> Option<String>;
 }

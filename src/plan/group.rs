@@ -130,6 +130,8 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
 pub struct Group<K> {
     charts: Vec<Chart>,
     bindings: Vec<Binding>,
+    /// Those that are left out.
+    off: Vec<usize>,
     motions: Vec<BodyMotion>,
     loads: Vec<Load>,
     /// What an effect on some of the bodies is shown.
@@ -148,6 +150,7 @@ impl<K: Kind> Group<K> {
             depends_on_velocity,
             charts,
             bindings,
+            off: Vec::new(),
             motions,
             loads: vec![Load::zero(); n],
             shown: Vec::with_capacity(n),
@@ -190,7 +193,10 @@ impl<K: Kind> Group<K> {
     /// Loads of all effects on the motions as they stand.
     fn add_loads(&mut self, at: Moment) {
         self.loads.fill(Load::zero());
-        for binding in &self.bindings {
+        for (place, binding) in self.bindings.iter().enumerate() {
+            if self.off.contains(&place) {
+                continue;
+            }
             let effect = binding.effect.as_effect();
             if binding.members.len() == self.motions.len() && binding.in_order {
                 effect.add_to(at, &self.motions, &mut self.loads);
@@ -328,6 +334,14 @@ impl<K: Kind> Problem for Group<K> {
 
     fn decode(&self, y: &[f64], motions: &mut [BodyMotion]) {
         Self::decode_into(&self.charts, y, motions);
+    }
+
+    fn leave_out(&mut self, loads: &[usize]) -> bool {
+        let changes = self.off != loads;
+        if changes {
+            self.off = loads.to_vec();
+        }
+        changes
     }
 
     fn take_failure(&mut self) -> Option<String> {
