@@ -45,6 +45,7 @@
 #![forbid(unsafe_code)]
 
 pub mod batch;
+pub mod calibrate;
 #[cfg(feature = "serde")]
 pub mod catalogue;
 #[cfg(feature = "cli")]
@@ -89,6 +90,7 @@ pub use math::Pose;
 pub use math::roots::Passage;
 pub use measure::{Measure, MeasureFunction};
 pub use plan::Plan;
+pub use plan::cost::CostTable;
 pub use report::Report;
 pub use scene::{Body, BodyId, Direction, Orientation, Record, RunOptions, Scene, Span, UserEvent};
 pub use shape::{Capsule, Compound, Cone, Cuboid, Cylinder, Ellipsoid, HalfSpace, Mesh, Polyhedron, Shape, Sphere};

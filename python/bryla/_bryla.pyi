@@ -1,5 +1,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias, final
 
 import numpy as np
@@ -1395,6 +1396,7 @@ class Plan:
     def run(self, t_span: tuple[_Number, _Number] | None = None, *, progress: bool = False) -> Trajectory:
         """Runs the plan over a span [s], that of the scene's run options if none is given; see Scene.run."""
 
+    def predict(self, t_span: tuple[_Number, _Number] | None = None) -> tuple[float, float, float] | None: ...
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
@@ -1876,6 +1878,7 @@ class ComparisonTable:
 def cli_main(args: Sequence[str]) -> int:
     """Runs the command line with these arguments, the first being its own name; returns the exit code."""
 
+def calibrate(path: _Path | None = None) -> Path: ...
 def load(path: _Path) -> Scene:
     """Reads a scene from a file, .toml or .json; meshes that it names are read too, relative paths
     starting beside it.

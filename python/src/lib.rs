@@ -59,6 +59,7 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<report::PySeconds>()?;
     compare::register(module)?;
     module.add_function(wrap_pyfunction!(cli_main, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(scene::load, module)?)?;
     module.add_function(wrap_pyfunction!(scene::schema, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::resume, module)?)?;

@@ -250,7 +250,7 @@
 //!
 //! A `switch` has a `measure` of the body, as [events](#events) have, and two values: with `on` below `off` the engine
 //! turns on once the measure has fallen to `on`, and off once it has risen to `off`; with `on` above `off` the other way
-//! round. Between the two it stays as it is; at the start it is off there, unless `starts_on = true`.
+//! round. Between the two it stays as it is; at the start it is off there, unless `starts_on` is true.
 //!
 //! `wrench`: a given force and torque.
 //!

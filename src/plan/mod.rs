@@ -20,6 +20,7 @@ use crate::scene::{Body, Orientation, RunOptions, Scene};
 use crate::shape::Shape;
 use crate::state::{BodyMotion, BodyState};
 
+pub mod cost;
 mod explain;
 mod group;
 mod method;

@@ -22,12 +22,14 @@ use crate::trajectory::{Event, EventKind, Phase, Trajectory};
 pub(crate) mod clock;
 pub(crate) mod estimate;
 mod observe;
+mod predict;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
 mod switching;
 mod turn;
 
+pub use predict::Prediction;
 pub use run::{Observer, Progress};
 
 /// A run that cannot go on. Nothing computed is lost: `trajectory` ends where the run did.

@@ -138,3 +138,24 @@ fn comparing_shows_error_falling_with_its_order_and_rising_cost() {
     assert_eq!(csv.lines().count(), 10);
     assert!(csv.starts_with("method,step_s,error,evaluations,steps,seconds_min,seconds_median\neuler,2e-2,"));
 }
+
+#[test]
+fn the_plan_takes_a_splitting_where_a_conservative_motion_is_long_and_wanted_exactly() {
+    let mut scene = Scene::new();
+    scene.add_effect(bryla::UniformGravity::new([0.0, 0.0, -9.81]));
+    let inertia = bryla::math::Matrix3::from_diagonal(&[0.01, 0.013, 0.004].into());
+    let top = Body::with_inertia("top", 1.0, inertia).position([0.0, 0.0, 0.1]).angular_velocity([0.5, 0.3, 40.0]);
+    scene
+        .add(top.freedom(bryla::freedom::Freedom::Pivot(bryla::freedom::Pivot { point_body: [0.0, 0.0, -0.1] })))
+        .unwrap();
+    let chosen = |scene: &Scene, end: f64, tolerance: f64| {
+        let options = RunOptions { t_span: Some([0.0, end]), ..RunOptions::tolerance(tolerance) };
+        scene.compile(&options).unwrap().method()
+    };
+    // 40 rad/s: 3,000 turns take 471 s
+    assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Split6);
+    assert_eq!(chosen(&scene, 400.0, 1e-9), Method::Dop853);
+    assert_eq!(chosen(&scene, 700.0, 1e-6), Method::Dop853);
+    scene.add_effect(bryla::Drag { angular_linear: 1e-6, ..bryla::Drag::default() });
+    assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Dop853);
+}
