@@ -22,18 +22,24 @@ use crate::math::Vector3;
 use crate::math::sum::two_sum;
 use crate::state::BodyMotion;
 
-/// Bodies of a chunk [-]: its numbers, 18 KB, stay in the nearest cache, and any vector width divides it.
+/// Bodies of a chunk [-]: its numbers, 13 KB, stay in the nearest cache, and any vector width divides it.
 const LANES: usize = 32;
 
 /// One number of every body of a chunk.
 type Lane = [f64; LANES];
 
+/// What a step changes: `[x, q, L]`, q and L in principal axes, and what rounding dropped of them.
+#[derive(Debug, Clone)]
+struct State {
+    y: [Lane; 10],
+    rest: [Lane; 10],
+}
+
 /// Bodies side by side. Lanes behind the last body hold copies of it.
 #[derive(Debug, Clone)]
 struct Chunk {
-    /// `[x, P, q, L]`, q and L in principal axes, and what rounding dropped of x, q and L.
-    y: [Lane; 13],
-    rest: [Lane; 13],
+    state: State,
+    momentum: [Lane; 3],
     inv_mass: Lane,
     inv_moments: [Lane; 3],
 }
@@ -68,12 +74,19 @@ impl Batch {
         let mut chunks = Vec::with_capacity(bodies.len().div_ceil(LANES));
         for (bodies, charts) in bodies.chunks(LANES).zip(charts.chunks(LANES)) {
             let zero = [0.0; LANES];
-            let mut chunk = Chunk { y: [zero; 13], rest: [zero; 13], inv_mass: zero, inv_moments: [zero; 3] };
+            let state = State { y: [zero; 10], rest: [zero; 10] };
+            let mut chunk = Chunk { state, momentum: [zero; 3], inv_mass: zero, inv_moments: [zero; 3] };
             for lane in 0..LANES {
                 let place = lane.min(bodies.len() - 1);
                 let mut y = [0.0; 13];
                 charts[place].encode(&bodies[place].state(), &mut y);
-                (0..13).for_each(|i| chunk.y[i][lane] = y[i]);
+                for (i, y) in y.into_iter().enumerate() {
+                    match i {
+                        0..3 => chunk.state.y[i][lane] = y,
+                        3..6 => chunk.momentum[i - 3][lane] = y,
+                        _ => chunk.state.y[i - 3][lane] = y,
+                    }
+                }
                 if let Chart::Free(free) = &charts[place] {
                     let (inv_mass, inv_moments) = free.inverses();
                     chunk.inv_mass[lane] = inv_mass;
@@ -99,7 +112,12 @@ impl Batch {
     pub fn motion(&self, index: usize) -> Option<BodyMotion> {
         let (chart, mut motion) = (self.charts.get(index)?, *self.bodies.get(index)?);
         let chunk = &self.chunks[index / LANES];
-        let y: [f64; 13] = std::array::from_fn(|i| chunk.y[i][index % LANES]);
+        let lane = |i: usize| match i {
+            0..3 => &chunk.state.y[i],
+            3..6 => &chunk.momentum[i - 3],
+            _ => &chunk.state.y[i - 3],
+        };
+        let y: [f64; 13] = std::array::from_fn(|i| lane(i)[index % LANES]);
         chart.decode(&y, &mut motion);
         Some(motion)
     }
@@ -126,7 +144,8 @@ impl Batch {
             }
             own.into_iter().flatten().for_each(|chunk| chunk.advance(step, steps));
         });
-        match (0..self.len()).find(|&i| !self.chunks[i / LANES].y.iter().all(|lane| lane[i % LANES].is_finite())) {
+        let finite = |i: usize| self.chunks[i / LANES].state.y.iter().all(|lane| lane[i % LANES].is_finite());
+        match (0..self.len()).find(|&i| !finite(i)) {
             Some(body) => Err(Error::refused(
                 format!("body {body}"),
                 format!("its motion is not finite any more after {steps} steps of {step} s"),
@@ -140,77 +159,66 @@ impl Chunk {
     fn advance(&mut self, h: f64, steps: u64) {
         // nothing acts: P stays, and x moves by the same in every step
         let mut drift = [[0.0; LANES]; 3];
-        for (i, drift) in drift.iter_mut().enumerate() {
-            for (l, drift) in drift.iter_mut().enumerate() {
-                let v = self.inv_mass[l] * self.y[3 + i][l];
+        for (drift, momentum) in drift.iter_mut().zip(&self.momentum) {
+            for (drift, (p, inverse)) in drift.iter_mut().zip(momentum.iter().zip(&self.inv_mass)) {
+                let v = inverse * p;
                 *drift = h / 6.0 * (v + 2.0 * v + 2.0 * v + v);
             }
         }
-        let mut work = Work { change: [[0.0; LANES]; 7], ahead: [[0.0; LANES]; 4], stray: [0.0; LANES] };
+
+        // from one state into another, and back
+        let (mut other, mut stray) = (self.state.clone(), [0.0; LANES]);
+        let (mut from, mut to) = (&mut self.state, &mut other);
         for _ in 0..steps {
-            for (i, drift) in drift.iter().enumerate() {
-                add(&mut self.y[i], &mut self.rest[i], drift);
+            step::<false>(from, to, h, &drift, &self.inv_moments, &mut stray);
+            if !stray.iter().fold(true, |near, e| near & (e.abs() < SMALL_STRAY)) {
+                step::<true>(from, to, h, &drift, &self.inv_moments, &mut stray);
             }
-            self.turn(h, &mut work);
-            work.project();
-            for (i, change) in work.change.iter().enumerate() {
-                add(&mut self.y[6 + i], &mut self.rest[6 + i], change);
-            }
+            std::mem::swap(&mut from, &mut to);
         }
-    }
-
-    /// The change of q and L in a step, and where q would end.
-    #[inline(always)]
-    fn turn(&self, h: f64, work: &mut Work) {
-        let Self { y, rest, inv_moments, .. } = self;
-        for l in 0..LANES {
-            let at: [f64; 7] = std::array::from_fn(|i| y[6 + i][l]);
-            let inverse = std::array::from_fn(|i| inv_moments[i][l]);
-            let stage = |a: f64, k: &[f64; 7]| std::array::from_fn::<f64, 7, _>(|i| at[i] + a * k[i]);
-            let k1 = rate(&at, &inverse);
-            let k2 = rate(&stage(0.5 * h, &k1), &inverse);
-            let k3 = rate(&stage(0.5 * h, &k2), &inverse);
-            let k4 = rate(&stage(h, &k3), &inverse);
-            let dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
-            let q: [f64; 4] = std::array::from_fn(|i| at[i] + (dy[i] + rest[6 + i][l]));
-            work.stray[l] = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
-            (0..7).for_each(|i| work.change[i][l] = dy[i]);
-            (0..4).for_each(|i| work.ahead[i][l] = q[i]);
+        if steps % 2 == 1 {
+            self.state = other;
         }
     }
 }
 
-/// What a step of a chunk works with.
-struct Work {
-    /// Changes of q and L.
-    change: [Lane; 7],
-    /// Where q would end without a correction, and its `|q|² − 1` there.
-    ahead: [Lane; 4],
-    stray: Lane,
-}
-
-impl Work {
-    /// Amends the changes of q so that they end on the sphere, as the projection of one body does.
-    #[inline(always)]
-    fn project(&mut self) {
-        let near = self.stray.iter().fold(true, |near, e| near & (e.abs() < SMALL_STRAY));
-        if near {
-            for l in 0..LANES {
-                let c = small_correction(self.stray[l]);
-                (0..4).for_each(|i| self.change[i][l] += c * self.ahead[i][l]);
-            }
-        } else {
-            self.project_far();
+/// One step of every body of a chunk; `|q|² − 1` before q is put back on its sphere is left in `stray`. Only where it
+/// may be `far` is a square root taken.
+#[inline(never)]
+fn step<const FAR: bool>(
+    from: &State,
+    to: &mut State,
+    h: f64,
+    drift: &[Lane; 3],
+    inv_moments: &[Lane; 3],
+    stray: &mut Lane,
+) {
+    for l in 0..LANES {
+        let mut add = |i: usize, dy: f64| (to.y[i][l], to.rest[i][l]) = two_sum(from.y[i][l], dy + from.rest[i][l]);
+        for (i, drift) in drift.iter().enumerate() {
+            add(i, drift[l]);
         }
-    }
 
-    /// The same where steps are so long that some body strays far.
-    #[cold]
-    fn project_far(&mut self) {
-        for l in 0..LANES {
-            let e = self.stray[l];
-            let c = if e.abs() < SMALL_STRAY { small_correction(e) } else { large_correction(e) };
-            (0..4).for_each(|i| self.change[i][l] += c * self.ahead[i][l]);
+        // the four stages
+        let at: [f64; 7] = std::array::from_fn(|i| from.y[3 + i][l]);
+        let inverse = std::array::from_fn(|i| inv_moments[i][l]);
+        let stage = |a: f64, k: &[f64; 7]| std::array::from_fn::<f64, 7, _>(|i| at[i] + a * k[i]);
+        let k1 = rate(&at, &inverse);
+        let k2 = rate(&stage(0.5 * h, &k1), &inverse);
+        let k3 = rate(&stage(0.5 * h, &k2), &inverse);
+        let k4 = rate(&stage(h, &k3), &inverse);
+        let dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+
+        // the change of q is amended so that it ends on the sphere, as the projection of one body does
+        let q: [f64; 4] = std::array::from_fn(|i| at[i] + (dy[i] + from.rest[3 + i][l]));
+        let e = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
+        stray[l] = e;
+        let c = if FAR && !(e.abs() < SMALL_STRAY) { large_correction(e) } else { small_correction(e) };
+        for i in 0..4 {
+            add(3 + i, dy[i] + c * q[i]);
+        }
+        for i in 4..7 {
+            add(3 + i, dy[i]);
         }
     }
 }
@@ -229,14 +237,6 @@ fn rate(&[s, x, y, z, a, b, c]: &[f64; 7], inverse: &[f64; 3]) -> [f64; 7] {
         (c * u - a * w) + 0.0,
         (a * v - b * u) + 0.0,
     ]
-}
-
-/// `y += dy`, where `rest` takes up what rounding drops.
-#[inline(always)]
-fn add(y: &mut Lane, rest: &mut Lane, dy: &Lane) {
-    for l in 0..LANES {
-        (y[l], rest[l]) = two_sum(y[l], dy[l] + rest[l]);
-    }
 }
 
 #[cfg(test)]

@@ -10,7 +10,9 @@ def top():
     scene.add_effect(bryla.UniformGravity((0, 0, -9.81)))
     inertia = [[0.01, 0, 0], [0, 0.013, 0], [0, 0, 0.004]]
     pivot = bryla.Pivot((0, 0, -0.1))
-    body = bryla.Body("top", mass=1, inertia=inertia, position=(0, 0, 0.1), angular_velocity=(0, 0.3, 40), freedom=pivot)
+    body = bryla.Body(
+        "top", mass=1, inertia=inertia, position=(0, 0, 0.1), angular_velocity=(0, 0.3, 40), freedom=pivot
+    )
     scene.add(body)
     scene.run_options = {"t_span": [0, 2], "tolerance": 1e-8}
     return scene
@@ -31,7 +33,7 @@ def test_calibration_writes_the_table_that_predictions_use(tmp_path, monkeypatch
     assert bryla.calibrate(tmp_path / "other.toml").exists()
 
     path.write_text("machine = 3")
-    with pytest.raises(bryla.Error, match="costs.toml"):
+    with pytest.raises(bryla.Error, match=r"costs\.toml"):
         top().explain()
 
 

@@ -140,7 +140,6 @@ def test_switches_are_shown_pickled_and_saved():
     assert bryla.Scene.from_text(scene.to_text()) == scene
     with pytest.raises(bryla.Error, match=r"effect 2 \(thruster\): a function is code"):
         lander(vertical).to_text()
+    scene.add_effect(bryla.Thruster("ball", (0, 0, 0), (0, 0, 30), switch=bryla.Switch("speed", 1, 1)))
     with pytest.raises(bryla.Error, match="off must be another value than on"):
-        bryla_equal = bryla.Switch("speed", 1, 1)
-        scene.add_effect(bryla.Thruster("ball", (0, 0, 0), (0, 0, 30), switch=bryla_equal))
         scene.compile()

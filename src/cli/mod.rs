@@ -284,7 +284,8 @@ fn bar_style() -> indicatif::ProgressStyle {
 
 /// End state, energy, events and report.
 fn summary(run: &Trajectory) -> Result<String> {
-    let mut text = format!("End: t = {} s\n", short(run.end()));
+    let by = run.ended_by().map_or_else(String::new, |name| format!(", by the event {name}"));
+    let mut text = format!("End: t = {} s{by}\n", short(run.end()));
     let Some(last) = run.times().len().checked_sub(1) else { return Ok(text + "no sample was reached") };
     let vector = |v: &[f64]| v.iter().map(|&x| short(x)).collect::<Vec<_>>().join(", ");
     for (body, motion) in run.plan().bodies().iter().zip(run.motions(last)).filter(|(body, _)| !body.fixed) {
