@@ -207,18 +207,19 @@ fn step<const FAR: bool>(
         let k2 = rate(&stage(0.5 * h, &k1), &inverse);
         let k3 = rate(&stage(0.5 * h, &k2), &inverse);
         let k4 = rate(&stage(h, &k3), &inverse);
-        let dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+        let mut dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
 
         // the change of q is amended so that it ends on the sphere, as the projection of one body does
         let q: [f64; 4] = std::array::from_fn(|i| at[i] + (dy[i] + from.rest[3 + i][l]));
         let e = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
         stray[l] = e;
-        let c = if FAR && !(e.abs() < SMALL_STRAY) { large_correction(e) } else { small_correction(e) };
-        for i in 0..4 {
-            add(3 + i, dy[i] + c * q[i]);
+        let near = !FAR || e.abs() < SMALL_STRAY;
+        let c = if near { small_correction(e) } else { large_correction(e) };
+        for (dy, q) in dy.iter_mut().zip(q) {
+            *dy += c * q;
         }
-        for i in 4..7 {
-            add(3 + i, dy[i]);
+        for (i, dy) in dy.into_iter().enumerate() {
+            add(3 + i, dy);
         }
     }
 }

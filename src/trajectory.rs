@@ -103,7 +103,7 @@ pub(crate) struct Phase {
     pub(crate) group: usize,
     pub(crate) start: f64,
     pub(crate) charts: Vec<Chart>,
-    /// Loads that the state has turned off, as places among those of the group.
+    /// Effects that the state has turned off, as places in the scene.
     #[cfg_attr(feature = "serde", serde(default))]
     pub(crate) off: Vec<usize>,
     pub(crate) segments: Vec<Segment>,
@@ -452,7 +452,7 @@ impl Trajectory {
         let mut sample = 1.min(self.times.len());
         let mut motions = Vec::new();
         for phase in self.phases.iter().filter(|phase| phase.group == group) {
-            let acting = || bindings.iter().enumerate().filter(|(i, b)| moving(b) && !phase.off.contains(i));
+            let acting = || bindings.iter().filter(|b| moving(b) && !phase.off.contains(&b.effect_index));
             for segment in &phase.segments {
                 // up to each sample within the segment, then to its end
                 let mut from = segment.start;
@@ -462,7 +462,7 @@ impl Trajectory {
                     for (node, weight) in GAUSS {
                         let t = from + (to - from) * node;
                         phase.read(segment, t, &mut motions);
-                        for (_, binding) in acting() {
+                        for binding in acting() {
                             let seen = binding.seen(&motions);
                             let effect = binding.effect.as_effect();
                             heat += weight * (to - from) * effect.dissipated_power(segment.moment(t), &seen);

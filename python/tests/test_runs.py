@@ -362,6 +362,19 @@ def test_progress_is_shown_on_a_terminal_only(monkeypatch, capsys):
     assert terminal.text.split("\r")[-1].strip() == ""
 
 
+def test_a_comparison_by_tolerance():
+    scene = spinning_scene()
+    scene.add_effect(bryla.Wrench("book", (0, 0, 0), (1e-4, 0, 0)))
+    table = scene.compare((0, 1), methods=["tsit5", "dop853"], steps=[1e-3], tolerances=[1e-6, 1e-9], repeats=1)
+    assert [row.tolerance for row in table.rows] == [None, 1e-6, 1e-9] * 2
+    # a run without an estimate promises less than one with it: within a decade of what was asked
+    assert all(row.error < 10 * row.tolerance for row in table.rows if row.tolerance)
+    assert table.rows[2].evaluations > table.rows[1].evaluations
+    assert len(table.plot().axes[0].get_lines()) == 4
+    with pytest.raises(bryla.Error, match="compare: tolerances must be steps for rk4"):
+        scene.compare((0, 1), methods=["rk4"], tolerances=[1e-6])
+
+
 def test_a_comparison_tells_order_and_cost():
     table = spinning_scene().compare((0, 1), methods=["euler", "heun"], steps=[1e-2, 5e-3, 2.5e-3], repeats=1)
     assert len(table) == len(table.rows) == 6

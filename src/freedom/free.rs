@@ -62,6 +62,15 @@ impl Free {
     }
 
     #[inline(always)]
+    pub(super) fn rate_constant(&self, y: &[f64], load: &Load, dy: &mut [f64]) {
+        self.rate_unloaded(y, dy);
+        put(&mut dy[3..], &load.force);
+        if load.torque != Vector3::zeros() {
+            self.spin.rate_constant(&y[6..], &Vector3::zeros(), load, &mut dy[6..]);
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         put(dy, &(self.inv_mass * vector(&y[3..])));
         dy[3..6].fill(0.0);

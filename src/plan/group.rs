@@ -27,13 +27,27 @@ pub trait Kind: Debug + Send + 'static {
 
     /// The rates where nothing acts.
     #[inline(always)]
-    fn rate_unloaded(charts: &[Chart], y: &[f64], dy: &mut [f64]) {
-        let mut at = 0;
+    fn rate_unloaded(charts: &[Chart], y: &Self::Y, dy: &mut Self::Y) {
+        let (y, dy, mut at) = (y.as_ref(), dy.as_mut(), 0);
         for chart in Self::narrow(charts) {
             let n = chart.dimension();
             chart.rate_unloaded(&y[at..at + n], &mut dy[at..at + n]);
             at += n;
         }
+    }
+
+    /// Amends a change so that it ends with orientations on their sphere; returns how far the worst had
+    /// strayed [-].
+    #[inline(always)]
+    fn project(charts: &[Chart], y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64 {
+        let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
+        let (mut at, mut worst) = (0, 0.0_f64);
+        for chart in Self::narrow(charts) {
+            let part = at..at + chart.dimension();
+            worst = worst.max(chart.project(&y[part.clone()], &rest[part.clone()], &mut dy[part.clone()]));
+            at = part.end;
+        }
+        worst
     }
 }
 
@@ -79,7 +93,7 @@ macro_rules! single {
         /// a step of its own.
         pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
             match bodies.charts.as_slice() {
-                $([$pattern] if $($known &&)? (bodies.bindings.is_empty() || !$unloaded) => fly::<$kind>(bodies, method, course, t, y),)*
+                $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
                 _ => fly::<Any>(bodies, method, course, t, y),
             }
         }
@@ -87,9 +101,9 @@ macro_rules! single {
 }
 
 single! {
-    /// A free body on which nothing acts, with q and L in body axes.
+    /// A free body on which nothing acts, with q and L in body axes, in short steps.
     UnloadedBodyAxes: [13, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
-    /// A free body on which nothing acts, with q and L in world axes.
+    /// A free body on which nothing acts, with q and L in world axes, in short steps.
     UnloadedWorldAxes: [13, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A free body with q and L in body axes.
     FreeBodyAxes: [13, false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
@@ -130,13 +144,16 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
 pub struct Group<K> {
     charts: Vec<Chart>,
     bindings: Vec<Binding>,
-    /// Those that are left out.
+    /// Effects that are left out, by their places in the scene; none of them is constant.
     off: Vec<usize>,
     motions: Vec<BodyMotion>,
     loads: Vec<Load>,
+    /// Of these, what depends neither on time nor on the motion.
+    constant: Vec<Load>,
     /// What an effect on some of the bodies is shown.
     shown: Vec<BodyMotion>,
     shown_loads: Vec<Load>,
+    is_loaded: bool,
     depends_on_velocity: bool,
     kind: std::marker::PhantomData<fn() -> K>,
 }
@@ -145,18 +162,27 @@ impl<K: Kind> Group<K> {
     /// Bodies with these coordinates; of `motions`, mass, inertia and what no coordinate moves stay.
     pub(crate) fn new(charts: Vec<Chart>, motions: Vec<BodyMotion>, bindings: Vec<Binding>) -> Self {
         let n = motions.len();
-        let depends_on_velocity = bindings.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
-        Self {
+        let is_loaded = !bindings.is_empty();
+        let (constant, changing): (Vec<_>, Vec<_>) =
+            bindings.into_iter().partition(|binding| binding.effect.as_effect().is_constant());
+        let depends_on_velocity = changing.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
+        let mut group = Self {
+            is_loaded,
             depends_on_velocity,
             charts,
-            bindings,
+            bindings: constant,
             off: Vec::new(),
             motions,
             loads: vec![Load::zero(); n],
+            constant: vec![Load::zero(); n],
             shown: Vec::with_capacity(n),
             shown_loads: Vec::with_capacity(n),
             kind: std::marker::PhantomData,
-        }
+        };
+        group.add_loads(Moment { time: 0.0, since: 0.0 });
+        group.constant.clone_from(&group.loads);
+        group.bindings = changing;
+        group
     }
 
     /// Reads the motion of every body from the numbers.
@@ -176,9 +202,19 @@ impl<K: Kind> Group<K> {
         bodies.map(|((chart, motion), load)| chart.reaction(motion, load)).collect()
     }
 
-    /// `dy = f(t, y)` where something acts; apart, so that the steps of free bodies stay short.
+    /// [`Problem::project`] where something may act; apart, as are the rates: such a step is long anyway, and is
+    /// compiled for every method.
+    #[inline(never)]
+    fn project_apart(&self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
+        K::project(&self.charts, y, rest, dy)
+    }
+
+    /// `dy = f(t, y)` where something acts.
     #[inline(never)]
     fn rate_loaded(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
+        if self.bindings.is_empty() {
+            return self.rate_constant(y.as_ref(), dy.as_mut());
+        }
         Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
         self.add_loads(at);
         let (y, dy) = (y.as_ref(), dy.as_mut());
@@ -190,11 +226,22 @@ impl<K: Kind> Group<K> {
         }
     }
 
+    /// `dy = f(t, y)` where all loads are constant: no motion is written down to be read again.
+    #[inline(always)]
+    fn rate_constant(&mut self, y: &[f64], dy: &mut [f64]) {
+        let mut at = 0;
+        for ((chart, motion), load) in K::narrow(&self.charts).iter().zip(&mut self.motions).zip(&self.constant) {
+            let n = chart.dimension();
+            chart.rate_constant(&y[at..at + n], motion, load, &mut dy[at..at + n]);
+            at += n;
+        }
+    }
+
     /// Loads of all effects on the motions as they stand.
     fn add_loads(&mut self, at: Moment) {
-        self.loads.fill(Load::zero());
-        for (place, binding) in self.bindings.iter().enumerate() {
-            if self.off.contains(&place) {
+        self.loads.copy_from_slice(&self.constant);
+        for binding in &self.bindings {
+            if self.off.contains(&binding.effect_index) {
                 continue;
             }
             let effect = binding.effect.as_effect();
@@ -221,6 +268,7 @@ impl<K: Kind> Problem for Group<K> {
     type Y = K::Y;
     const WORLD_AXES: bool = K::WORLD_AXES;
     const BODY_AXES: bool = K::BODY_AXES;
+    const SHORT_STEPS: bool = K::UNLOADED;
 
     fn dimension(&self) -> usize {
         self.charts.iter().map(Chart::dimension).sum()
@@ -232,16 +280,20 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn rate(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
-        if K::UNLOADED || self.bindings.is_empty() { self.drift(y, dy) } else { self.rate_loaded(at, y, dy) }
+        match (K::UNLOADED, self.is_loaded) {
+            (true, _) => K::rate_unloaded(&self.charts, y, dy),
+            (false, false) => self.drift(y, dy),
+            (false, true) => self.rate_loaded(at, y, dy),
+        }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn drift(&mut self, y: &K::Y, dy: &mut K::Y) {
-        K::rate_unloaded(&self.charts, y.as_ref(), dy.as_mut());
+        K::rate_unloaded(&self.charts, y, dy);
     }
 
     fn is_loaded(&self) -> bool {
-        !K::UNLOADED && !self.bindings.is_empty()
+        !K::UNLOADED && self.is_loaded
     }
 
     fn depends_on_velocity(&self) -> bool {
@@ -299,14 +351,7 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn project(&mut self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
-        let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
-        let (mut at, mut worst) = (0, 0.0_f64);
-        for chart in K::narrow(&self.charts) {
-            let part = at..at + chart.dimension();
-            worst = worst.max(chart.project(&y[part.clone()], &rest[part.clone()], &mut dy[part.clone()]));
-            at = part.end;
-        }
-        worst
+        if K::UNLOADED { K::project(&self.charts, y, rest, dy) } else { self.project_apart(y, rest, dy) }
     }
 
     fn orientation_error(&self, y: &K::Y) -> f64 {
@@ -336,10 +381,10 @@ impl<K: Kind> Problem for Group<K> {
         Self::decode_into(&self.charts, y, motions);
     }
 
-    fn leave_out(&mut self, loads: &[usize]) -> bool {
-        let changes = self.off != loads;
+    fn leave_out(&mut self, effects: &[usize]) -> bool {
+        let changes = self.off != effects;
         if changes {
-            self.off = loads.to_vec();
+            self.off = effects.to_vec();
         }
         changes
     }

@@ -19,8 +19,8 @@ pub(crate) struct Watch {
 pub(crate) struct Toggle {
     /// What events and messages call it.
     pub(crate) name: String,
-    /// The load, as a place among those of the group.
-    pub(crate) binding: usize,
+    /// The effect, as a place in the scene.
+    pub(crate) effect: usize,
     /// Its body, as a place in the group.
     pub(crate) member: usize,
     pub(crate) switch: Switch,
@@ -28,12 +28,12 @@ pub(crate) struct Toggle {
 
 /// The switched loads among those of a group.
 pub(super) fn toggles(bindings: &[Binding], scene: &Scene) -> Vec<Toggle> {
-    let toggle = |(place, binding): (usize, &Binding)| {
+    let toggle = |binding: &Binding| {
         let switch = binding.effect.as_effect().switch()?.clone();
         let name = scene.effect_place(binding.effect_index);
-        Some(Toggle { name, binding: place, member: *binding.members.first()?, switch })
+        Some(Toggle { name, effect: binding.effect_index, member: *binding.members.first()?, switch })
     };
-    bindings.iter().enumerate().filter_map(toggle).collect()
+    bindings.iter().filter_map(toggle).collect()
 }
 
 /// The bodies of every event, as places in the scene.

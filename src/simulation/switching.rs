@@ -56,10 +56,10 @@ impl Plan {
 }
 
 impl Lane {
-    /// The loads that are off, as places among those of the group.
+    /// The effects that are off, as places in the scene.
     pub(super) fn loads_off(&self, spec: &FlightGroup) -> Vec<usize> {
         let off = spec.toggles.iter().zip(&self.switched).filter(|(_, state)| !state.on);
-        off.map(|(toggle, _)| toggle.binding).collect()
+        off.map(|(toggle, _)| toggle.effect).collect()
     }
 
     /// Begins a step of a lane whose loads are switched: the flight may be a new one since the last.
