@@ -44,6 +44,8 @@
 
 #![forbid(unsafe_code)]
 
+pub mod batch;
+pub mod calibrate;
 #[cfg(feature = "serde")]
 pub mod catalogue;
 #[cfg(feature = "cli")]
@@ -72,10 +74,12 @@ mod text;
 pub mod tolerance;
 pub mod trajectory;
 
+pub use batch::Batch;
 pub use compare::{CompareOptions, ComparisonTable};
 pub use contact::Response;
 pub use effect::{
-    AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Thruster, UniformGravity, UserEffect, Wrench,
+    AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Switch, Thruster, UniformGravity, UserEffect,
+    Wrench,
 };
 pub use error::{Error, Result};
 pub use freedom::Freedom;
@@ -86,6 +90,7 @@ pub use math::Pose;
 pub use math::roots::Passage;
 pub use measure::{Measure, MeasureFunction};
 pub use plan::Plan;
+pub use plan::cost::CostTable;
 pub use report::Report;
 pub use scene::{Body, BodyId, Direction, Orientation, Record, RunOptions, Scene, Span, UserEvent};
 pub use shape::{Capsule, Compound, Cone, Cuboid, Cylinder, Ellipsoid, HalfSpace, Mesh, Polyhedron, Shape, Sphere};

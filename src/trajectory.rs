@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
-use crate::integrator::Segment;
+use crate::integrator::{Problem, Segment};
 use crate::math::roots::Passage;
 use crate::math::{Pose, Vector3};
 use crate::plan::{Any, Binding, Group, Plan};
 use crate::report::Report;
-use crate::scene::{BodyId, Record, UserEvent};
+use crate::scene::{BodyId, Record};
 use crate::state::{BodyMotion, BodyState, Load, Moment};
 
 #[cfg(feature = "serde")]
@@ -25,6 +25,8 @@ pub enum EventKind {
     Stick,
     /// A measure that the run watched met its value.
     User,
+    /// The state turned a load on or off.
+    Switch,
 }
 
 impl EventKind {
@@ -34,6 +36,7 @@ impl EventKind {
             Self::Bounce => "bounce",
             Self::Stick => "stick",
             Self::User => "user",
+            Self::Switch => "switch",
         }
     }
 }
@@ -46,12 +49,12 @@ pub struct Event {
     pub time: f64,
     /// What.
     pub kind: EventKind,
-    /// The name of a user's event; empty for impacts.
+    /// The name of a user's event, or which load was turned on or off; empty for impacts.
     pub name: String,
-    /// How the measure of a user's event met its value.
+    /// How the measure behind a user's event or a switch met its value.
     pub passage: Option<Passage>,
-    /// The two bodies a and b, as places in the scene; the first and the last of a user's event, to which nothing
-    /// of the below applies.
+    /// The two bodies a and b, as places in the scene; the first and the last of a user's event or a switch, to
+    /// which nothing of the below applies.
     pub bodies: [usize; 2],
     /// Where the impulse acts [m]: the point of contact, or the centroid of several.
     pub point: Vector3,
@@ -72,13 +75,13 @@ pub struct Event {
 }
 
 impl Event {
-    /// A user's event at `time` [s], of these two bodies.
-    pub(crate) fn of_user(time: f64, event: &UserEvent, passage: Passage, bodies: [usize; 2]) -> Self {
+    /// An event at `time` [s] that is no impact, of these two bodies.
+    pub(crate) fn watched(time: f64, kind: EventKind, name: String, passage: Passage, bodies: [usize; 2]) -> Self {
         let nothing = Vector3::zeros();
         Self {
             time,
-            kind: EventKind::User,
-            name: event.name.clone(),
+            kind,
+            name,
             passage: Some(passage),
             bodies,
             point: nothing,
@@ -100,6 +103,9 @@ pub(crate) struct Phase {
     pub(crate) group: usize,
     pub(crate) start: f64,
     pub(crate) charts: Vec<Chart>,
+    /// Effects that the state has turned off, as places in the scene.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(crate) off: Vec<usize>,
     pub(crate) segments: Vec<Segment>,
     /// The motions it started with; they stay where there is nothing to integrate.
     pub(crate) motions: Vec<BodyMotion>,
@@ -198,6 +204,21 @@ impl Trajectory {
     /// Whether a step up to `end` [s] is looked into: its motion is kept, or holds the sample at `cursor`.
     pub(crate) fn looks_into(&self, cursor: usize, end: f64) -> bool {
         self.keeps_motion() || self.times.get(cursor).is_some_and(|&t| t < end)
+    }
+
+    /// The place of the phase that goes on from `phase` at `start` [s] with these loads off: the same, or a new one.
+    pub(crate) fn phase_with(&mut self, phase: usize, off: &[usize], start: f64) -> usize {
+        if self.phases[phase].off == off {
+            return phase;
+        }
+        if self.phases[phase].start >= start {
+            self.phases[phase].off = off.to_vec();
+            return phase;
+        }
+        let Phase { group, charts, motions, .. } = &self.phases[phase];
+        let (group, charts, motions) = (*group, charts.clone(), motions.clone());
+        self.phases.push(Phase { group, start, charts, off: off.to_vec(), segments: Vec::new(), motions });
+        self.phases.len() - 1
     }
 
     /// Keeps the samples of one step, and its motion where that is asked for. `cursor` is the
@@ -431,6 +452,7 @@ impl Trajectory {
         let mut sample = 1.min(self.times.len());
         let mut motions = Vec::new();
         for phase in self.phases.iter().filter(|phase| phase.group == group) {
+            let acting = || bindings.iter().filter(|b| moving(b) && !phase.off.contains(&b.effect_index));
             for segment in &phase.segments {
                 // up to each sample within the segment, then to its end
                 let mut from = segment.start;
@@ -440,7 +462,7 @@ impl Trajectory {
                     for (node, weight) in GAUSS {
                         let t = from + (to - from) * node;
                         phase.read(segment, t, &mut motions);
-                        for binding in bindings.iter().filter(moving) {
+                        for binding in acting() {
                             let seen = binding.seen(&motions);
                             let effect = binding.effect.as_effect();
                             heat += weight * (to - from) * effect.dissipated_power(segment.moment(t), &seen);
@@ -486,6 +508,7 @@ impl Trajectory {
             let Some(phase) = self.phases.iter().rfind(|p| p.group == index && p.start <= time) else { continue };
             let motions: Vec<_> = spec.members.iter().map(|&i| all[i]).collect();
             let mut group = Group::<Any>::new(phase.charts.clone(), motions, spec.bindings.clone());
+            group.leave_out(&phase.off);
             for (&i, reaction) in spec.members.iter().zip(group.reactions(Moment { time, since: time })) {
                 reactions[i] = reaction;
             }

@@ -1,5 +1,6 @@
 from collections.abc import Callable, Iterable, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, Literal, SupportsFloat, SupportsIndex, TypeAlias, final
 
 import numpy as np
@@ -624,10 +625,17 @@ class Thruster:
     schedule : list of (time, factor), optional
         Times [s] and the factor of the force from then on: 0 before the first time, held after the
         last, switched exactly at its times. Factor 1 always, if absent.
+    switch : Switch, optional
+        What turns it on and off by the state, whatever the factor; always on if absent.
     """
 
     def __new__(
-        cls, body: str, point_body: _Numbers, force_body: _Numbers, schedule: _Rows | None = None
+        cls,
+        body: str,
+        point_body: _Numbers,
+        force_body: _Numbers,
+        schedule: _Rows | None = None,
+        switch: Switch | None = None,
     ) -> Thruster: ...
     @property
     def body(self) -> str:
@@ -644,6 +652,10 @@ class Thruster:
     @property
     def schedule(self) -> list[tuple[float, float]] | None:
         """Pairs (time [s], factor), or None."""
+
+    @property
+    def switch(self) -> Switch | None:
+        """What turns it on and off by the state, or None."""
 
     def __eq__(self, value: object, /) -> bool: ...
 
@@ -835,6 +847,111 @@ class UserEffect:
         """The potential energy: energy(t, bodies) -> float, or None."""
 
     def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Switch:
+    """Turns an engine on and off by a measure of its body, with hysteresis.
+
+    With on < off it turns on once the measure has fallen to on, and off once it has risen to off; with
+    on > off the other way round. Between the two it stays as it is. The step ends where the measure
+    meets the value, so that methods keep their order. Every turn is an event of the run, of the kind
+    "switch".
+
+    Parameters
+    ----------
+    measure : callable, str or dict
+        What decides, as in UserEvent; of one body.
+    on : float
+        The value at which it turns on.
+    off : float
+        The value at which it turns off; another one.
+    starts_on : bool
+        Whether it is on at the start, where the measure lies between the two.
+    """
+
+    def __new__(cls, measure: _Measure, on: _Number, off: _Number, starts_on: bool = False) -> Switch: ...
+    @property
+    def measure(self) -> _Measure:
+        """What decides: a callable, a str or a dict."""
+
+    @property
+    def on(self) -> float:
+        """The value at which it turns on, in the unit of the measure."""
+
+    @property
+    def off(self) -> float:
+        """The value at which it turns off."""
+
+    @property
+    def starts_on(self) -> bool:
+        """Whether it is on at the start, where the measure lies between the two."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Batch:
+    """Free bodies that fly on their own, advanced together by the classical Runge–Kutta method.
+
+    Nothing acts on them, so they do not know of each other; a body in a batch has the same bits as on its
+    own. Arrays have one row for each body; one item is for all.
+
+    Parameters
+    ----------
+    mass : float or array (bodies,)
+        Masses [kg].
+    inertia : array (3, 3) or (bodies, 3, 3)
+        Inertia about the centre of mass, body axes [kg·m²].
+    position, velocity, angular_velocity : array (3,) or (bodies, 3), optional
+        Where the centre of mass is [m], its velocity [m/s], the angular velocity [rad/s], world axes; 0 if absent.
+    orientation : array (4,) or (bodies, 4), optional
+        Rotation from body to world axes (w, x, y, z), of which q/|q| is taken; none if absent.
+    """
+
+    def __new__(
+        cls,
+        mass: npt.ArrayLike,
+        inertia: npt.ArrayLike,
+        *,
+        position: npt.ArrayLike | None = None,
+        orientation: npt.ArrayLike | None = None,
+        velocity: npt.ArrayLike | None = None,
+        angular_velocity: npt.ArrayLike | None = None,
+    ) -> Batch: ...
+    def advance(self, step: _Number, steps: SupportsIndex, *, threads: SupportsIndex | None = None) -> None:
+        """Takes steps, on as many threads as are asked for, by default as many as there are processors; the
+        bits do not depend on them. Other Python threads go on meanwhile, and Ctrl-C ends it between pieces.
+
+        Parameters
+        ----------
+        step : float
+            Length of a step [s].
+        steps : int
+            How many.
+        threads : int, optional
+            How many threads.
+        """
+
+    @property
+    def position(self) -> _Array:
+        """Centres of mass [m]: array (bodies, 3)."""
+
+    @property
+    def orientation(self) -> _Array:
+        """Rotations from body to world axes (w, x, y, z): array (bodies, 4)."""
+
+    @property
+    def velocity(self) -> _Array:
+        """Velocities of the centres of mass, world axes [m/s]: array (bodies, 3)."""
+
+    @property
+    def angular_velocity(self) -> _Array:
+        """Angular velocities, world axes [rad/s]: array (bodies, 3)."""
+
+    @property
+    def kinetic_energy(self) -> _Array:
+        """Kinetic energies [J]: array (bodies,)."""
+
+    def __len__(self) -> int: ...
 
 @final
 class UserEvent:
@@ -1346,13 +1463,20 @@ class Plan:
         """The bodies, in the order of the body axis of every array."""
 
     def explain(self) -> str:
-        """What runs, what is left out, and why."""
+        """What runs, what is left out, and why; and where the options name a span, what the run is predicted to
+        take, by the user's own cost table if `calibrate` made one, else by the shipped one.
+        """
 
     def start(self, t: _Number = 0.0) -> Simulation:
         """Starts the scene at time t [s], to be advanced by hand; the plan must have method and step."""
 
     def run(self, t_span: tuple[_Number, _Number] | None = None, *, progress: bool = False) -> Trajectory:
         """Runs the plan over a span [s], that of the scene's run options if none is given; see Scene.run."""
+
+    def predict(self, t_span: tuple[_Number, _Number] | None = None) -> tuple[float, float, float] | None:
+        """Steps and time [s] that a run over a span is predicted to take: (steps, run, estimate), by the same
+        table as in explain; None where a function of the user has its own price.
+        """
 
     def __eq__(self, value: object, /) -> bool: ...
 
@@ -1573,19 +1697,23 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What: "bounce", "stick" or "user"."""
+        """What: "bounce", "stick", "user" or "switch"."""
 
     @property
     def name(self) -> str:
-        """The name of a UserEvent; empty for impacts."""
+        """The name of a UserEvent, or which load was turned on or off; empty for impacts."""
 
     @property
     def passage(self) -> str | None:
-        """How the measure of a UserEvent met its value: "rising", "falling" or "touching"; None for impacts."""
+        """How the measure behind a UserEvent or a switch met its value: "rising", "falling" or "touching"; None
+        for impacts.
+        """
 
     @property
     def bodies(self) -> tuple[str, str]:
-        """Names of the two bodies; the first and the last of a UserEvent, to which nothing of the below applies."""
+        """Names of the two bodies; the first and the last of a UserEvent or a switch, to which nothing of the
+        below applies.
+        """
 
     @property
     def point(self) -> _Array:
@@ -1838,6 +1966,17 @@ class ComparisonTable:
 
 def cli_main(args: Sequence[str]) -> int:
     """Runs the command line with these arguments, the first being its own name; returns the exit code."""
+
+def calibrate(path: _Path | None = None) -> Path:
+    """Measures what a step of each method costs on this machine, and writes the table, from which `explain` and
+    `predict` tell how long a run will take; returns where. It takes a second or so.
+
+    Parameters
+    ----------
+    path : path, optional
+        Where the table goes; by default where `explain` looks for it, bryla/costs.toml in the user's folder for
+        configuration.
+    """
 
 def load(path: _Path) -> Scene:
     """Reads a scene from a file, .toml or .json; meshes that it names are read too, relative paths

@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use bryla::effect::{AnyEffect, Drag, Frame, PointGravity, Spring, Thruster, UniformGravity, UserEffect, Wrench};
+use bryla::effect::{
+    AnyEffect, Drag, Frame, PointGravity, Spring, Switch, Thruster, UniformGravity, UserEffect, Wrench,
+};
 use bryla::math::Vector3;
 use bryla::{BodyMotion, Schedule};
 use pyo3::IntoPyObjectExt;
@@ -154,8 +156,10 @@ effects! {
     /// schedule : list of (time, factor), optional
     ///     Times [s] and the factor of the force from then on: 0 before the first time, held after the
     ///     last, switched exactly at its times. Factor 1 always, if absent.
-    class "Thruster" PyThruster(Thruster) (body, point_body, force_body, schedule=None)
-    as "(body, point_body, force_body, schedule=None)"
+    /// switch : Switch, optional
+    ///     What turns it on and off by the state, whatever the factor; always on if absent.
+    class "Thruster" PyThruster(Thruster) (body, point_body, force_body, schedule=None, switch=None)
+    as "(body, point_body, force_body, schedule=None, switch=None)"
     {
         /// The body that carries the engine.
         body: String,
@@ -165,6 +169,8 @@ effects! {
         force_body: [f64; 3],
         /// Pairs (time [s], factor), or None.
         schedule: Option<Schedule>,
+        /// What turns it on and off by the state, or None.
+        switch: Option<Switch>,
     }
 
     /// A force and a torque, constant, scheduled or oscillating.

@@ -1,9 +1,9 @@
-//! What a run shall watch for.
+//! What a run shall watch for, and what switches by the state.
 
 use std::sync::Arc;
 
 use bryla::math::roots::Passage;
-use bryla::{BodyMotion, Direction, Measure, MeasureFunction, UserEvent};
+use bryla::{BodyMotion, Direction, Measure, MeasureFunction, Switch, UserEvent};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -60,6 +60,70 @@ plain_class! {
         direction: Direction,
         /// Whether the run ends there.
         terminal: bool,
+    }
+}
+
+plain_class! {
+    /// Turns an engine on and off by a measure of its body, with hysteresis.
+    ///
+    /// With on < off it turns on once the measure has fallen to on, and off once it has risen to off; with
+    /// on > off the other way round. Between the two it stays as it is. The step ends where the measure
+    /// meets the value, so that methods keep their order. Every turn is an event of the run, of the kind
+    /// "switch".
+    ///
+    /// Parameters
+    /// ----------
+    /// measure : callable, str or dict
+    ///     What decides, as in UserEvent; of one body.
+    /// on : float
+    ///     The value at which it turns on.
+    /// off : float
+    ///     The value at which it turns off; another one.
+    /// starts_on : bool
+    ///     Whether it is on at the start, where the measure lies between the two.
+    class "Switch" PySwitch(Switch) (measure, on, off, starts_on=false) as "(measure, on, off, starts_on=False)" {
+        /// What decides: a callable, a str or a dict.
+        measure: Measure,
+        /// The value at which it turns on, in the unit of the measure.
+        on: f64,
+        /// The value at which it turns off.
+        off: f64,
+        /// Whether it is on at the start, where the measure lies between the two.
+        starts_on: bool,
+    }
+}
+
+/// A switch as Python hands it over.
+#[derive(Debug)]
+pub(crate) struct AnySwitch(Switch);
+
+impl Plain for Switch {
+    type Value = AnySwitch;
+
+    fn to_python(&self) -> AnySwitch {
+        AnySwitch(self.clone())
+    }
+
+    fn from_python(value: AnySwitch) -> Result<Self> {
+        Ok(value.0)
+    }
+}
+
+impl<'py> FromPyObject<'_, 'py> for AnySwitch {
+    type Error = PyErr;
+
+    fn extract(obj: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self(obj.cast::<PySwitch>()?.get().0.clone()))
+    }
+}
+
+impl<'py> IntoPyObject<'py> for AnySwitch {
+    type Target = PySwitch;
+    type Output = Bound<'py, PySwitch>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        Bound::new(py, PySwitch(self.0))
     }
 }
 

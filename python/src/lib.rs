@@ -7,6 +7,7 @@
 
 use pyo3::prelude::*;
 
+mod batch;
 mod body;
 mod closest;
 mod compare;
@@ -43,7 +44,9 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     shape::register(module)?;
     closest::register(module)?;
     effect::register(module)?;
+    module.add_class::<batch::PyBatch>()?;
     module.add_class::<event::PyUserEvent>()?;
+    module.add_class::<event::PySwitch>()?;
     freedom::register(module)?;
     module.add_class::<body::PyBody>()?;
     module.add_class::<body::PyBodyMotion>()?;
@@ -56,6 +59,7 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<report::PySeconds>()?;
     compare::register(module)?;
     module.add_function(wrap_pyfunction!(cli_main, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(scene::load, module)?)?;
     module.add_function(wrap_pyfunction!(scene::schema, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::resume, module)?)?;

@@ -1,8 +1,9 @@
 //! Plans.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use bryla::{Plan, RunOptions, Scene};
+use bryla::{CostTable, Plan, RunOptions, Scene};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -39,10 +40,11 @@ impl PyPlan {
         self.0.scene().bodies.iter().cloned().map(PyBody).collect()
     }
 
-    /// What runs, what is left out, and why.
+    /// What runs, what is left out, and why; and where the options name a span, what the run is predicted to
+    /// take, by the user's own cost table if `calibrate` made one, else by the shipped one.
     #[pyo3(signature = ())]
-    fn explain(&self) -> String {
-        self.0.explain()
+    fn explain(&self) -> Result<String> {
+        Ok(self.0.explain_priced(&CostTable::of_user()?))
     }
 
     /// Starts the scene at time t [s], to be advanced by hand; the plan must have method and step.
@@ -56,6 +58,15 @@ impl PyPlan {
     fn run(&self, py: Python<'_>, t_span: Option<(f64, f64)>, progress: bool) -> Result<PyTrajectory> {
         let span = span(t_span, self.0.options())?;
         run_watched(py, progress, |observer| self.0.run_observed(span, observer))
+    }
+
+    /// Steps and time [s] that a run over a span is predicted to take: (steps, run, estimate), by the same
+    /// table as in explain; None where a function of the user has its own price.
+    #[pyo3(signature = (t_span=None))]
+    fn predict(&self, py: Python<'_>, t_span: Option<(f64, f64)>) -> Result<Option<(f64, f64, f64)>> {
+        let (span, costs) = (span(t_span, self.0.options())?, CostTable::of_user()?);
+        let predicted = py.detach(|| self.0.predict(span, &costs));
+        Ok(predicted.map(|predicted| (predicted.steps, predicted.run, predicted.estimate)))
     }
 
     fn __repr__(&self) -> String {
@@ -75,4 +86,22 @@ impl PyPlan {
         let scene = Scene::from_text(&text, bryla::scene::file::Format::Json)?;
         Ok(Self::new(scene.compile(&options)?))
     }
+}
+
+/// Measures what a step of each method costs on this machine, and writes the table, from which `explain` and
+/// `predict` tell how long a run will take; returns where. It takes a second or so.
+///
+/// Parameters
+/// ----------
+/// path : path, optional
+///     Where the table goes; by default where `explain` looks for it, bryla/costs.toml in the user's folder for
+///     configuration.
+#[pyfunction]
+#[pyo3(signature = (path=None))]
+pub(crate) fn calibrate(py: Python<'_>, path: Option<PathBuf>) -> Result<PathBuf> {
+    let nowhere = || bryla::Error::refused("calibrate", "the system names no folder for configuration; give a path");
+    let path = path.or_else(CostTable::user_path).ok_or_else(nowhere)?;
+    let table = py.detach(CostTable::measure)?;
+    table.save(&path)?;
+    Ok(path)
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use bryla::scene::file::Format;
-use bryla::{CompareOptions, RunOptions, Scene};
+use bryla::{CompareOptions, CostTable, RunOptions, Scene};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
@@ -100,7 +100,7 @@ impl PyScene {
     /// The plan of the scene's own run options in words: what runs, what is left out, and why.
     #[pyo3(signature = ())]
     fn explain(&self) -> Result<String> {
-        Ok(self.0.explain()?)
+        Ok(self.0.compile(&self.0.run)?.explain_priced(&CostTable::of_user()?))
     }
 
     /// Runs the scene over a span, and returns its Trajectory.

@@ -482,25 +482,27 @@ impl PyEvent {
         self.event.time
     }
 
-    /// What: "bounce", "stick" or "user".
+    /// What: "bounce", "stick", "user" or "switch".
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.name()
     }
 
-    /// The name of a UserEvent; empty for impacts.
+    /// The name of a UserEvent, or which load was turned on or off; empty for impacts.
     #[getter]
     fn name(&self) -> &str {
         &self.event.name
     }
 
-    /// How the measure of a UserEvent met its value: "rising", "falling" or "touching"; None for impacts.
+    /// How the measure behind a UserEvent or a switch met its value: "rising", "falling" or "touching"; None
+    /// for impacts.
     #[getter]
     fn passage(&self) -> Option<&'static str> {
         passage(self.event.passage)
     }
 
-    /// Names of the two bodies; the first and the last of a UserEvent, to which nothing of the below applies.
+    /// Names of the two bodies; the first and the last of a UserEvent or a switch, to which nothing of the
+    /// below applies.
     #[getter]
     fn bodies(&self) -> (String, String) {
         self.bodies.clone()

@@ -110,3 +110,36 @@ def test_events_of_a_scene_file():
     again = pickle.loads(pickle.dumps(run))
     assert again.ended_by == "landing"
     assert again.events == run.events
+
+
+def lander(measure, **options):
+    scene = bryla.Scene()
+    scene.add_effect(bryla.UniformGravity((0, 0, -10)))
+    scene.add(bryla.Body("ball", bryla.Sphere(0.1), mass=1))
+    switch = bryla.Switch(measure, on=-2, off=-1, **options)
+    scene.add_effect(bryla.Thruster("ball", (0, 0, 0), (0, 0, 30), switch=switch))
+    return scene
+
+
+@pytest.mark.parametrize("measure", [{"velocity": UP}, vertical])
+def test_a_thruster_is_switched_by_the_state(measure):
+    run = lander(measure).run((0, 0.6), method="rk4", step=0.013)
+    # down to −2 m/s with 10 m/s², up to −1 m/s with 20 m/s², and so on; rounding of 2 m/s over 10 m/s²
+    times = [event.time for event in run.events]
+    np.testing.assert_allclose(times, [0.2, 0.25, 0.35, 0.4, 0.5, 0.55], rtol=0, atol=1e-14)
+    assert {event.kind for event in run.events} == {"switch"}
+    assert run.events[0].name == "effect 2 (thruster) on"
+    assert run.energy.drift < 1e-11
+
+
+def test_switches_are_shown_pickled_and_saved():
+    switch = lander({"velocity": UP}, starts_on=True).effects[1].switch
+    assert (switch.measure, switch.on, switch.off, switch.starts_on) == ({"velocity": UP}, -2.0, -1.0, True)
+    assert pickle.loads(pickle.dumps(switch)) == eval(repr(switch), vars(bryla)) == switch
+    scene = lander({"velocity": UP})
+    assert bryla.Scene.from_text(scene.to_text()) == scene
+    with pytest.raises(bryla.Error, match=r"effect 2 \(thruster\): a function is code"):
+        lander(vertical).to_text()
+    scene.add_effect(bryla.Thruster("ball", (0, 0, 0), (0, 0, 30), switch=bryla.Switch("speed", 1, 1)))
+    with pytest.raises(bryla.Error, match="off must be another value than on"):
+        scene.compile()

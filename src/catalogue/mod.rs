@@ -47,6 +47,8 @@ catalogue! {
     heavy_top,
     /// A ball against the air: quadratic drag and a cross wind.
     thrown_ball,
+    /// A lander that falls on its engine: a switch holds its speed until it touches the ground, where the run ends.
+    lander,
     /// A die thrown on a table; the span ends before its bounces accumulate.
     bouncing_die,
 }

@@ -19,6 +19,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::compare::CompareOptions;
 use crate::error::{Error, Result};
 use crate::integrator::Method;
+use crate::plan::cost::{BodyKind, CostTable};
 use crate::scene::{Orientation, RunOptions, Scene, Span};
 use crate::simulation::{Progress, RunError};
 use crate::text::short;
@@ -96,6 +97,12 @@ enum Verb {
         #[arg(required = true)]
         scenes: Vec<PathBuf>,
     },
+    /// Measure what a step of each method costs on this machine, for the predictions of `explain` and `run`
+    Calibrate {
+        /// Where the table goes [default: bryla/costs.toml in the folder for configuration]
+        #[arg(long)]
+        out: Option<PathBuf>,
+    },
     /// Print the JSON Schema of scene files
     Schema,
 }
@@ -160,6 +167,7 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> i32 {
             compare(&scene, options, span.as_ref(), &out)
         }
         Verb::Check { scenes } => Ok(check(&scenes)),
+        Verb::Calibrate { out } => calibrate(out),
         Verb::Schema => {
             print(&format!("{:#}", Scene::schema()));
             Ok(DONE)
@@ -192,15 +200,15 @@ fn span_of(given: Option<&Vec<f64>>, scene: &RunOptions) -> Result<Span> {
 
 fn run(path: &Path, options: &Options, out: Option<PathBuf>, quiet: bool) -> Result<i32> {
     let scene = Scene::load(path)?;
-    let run_options = options.over(&scene.run);
     let span = span_of(options.span.as_ref(), &scene.run)?;
+    let run_options = RunOptions { t_span: Some([span.start, span.end]), ..options.over(&scene.run) };
     let out = out.unwrap_or_else(|| {
         let name = path.file_stem().map_or_else(|| "run".to_owned(), |stem| stem.to_string_lossy().into_owned());
         Path::new("out").join(format!("{name}.csv"))
     });
     let plan = scene.compile(&run_options)?;
     if !quiet {
-        print(&plan.explain());
+        print(&plan.explain_priced(&CostTable::of_user()?));
         print("");
     }
 
@@ -252,6 +260,24 @@ fn whole_part(position: f64) -> u64 {
     position as u64
 }
 
+/// Measures the costs of steps and writes them down.
+fn calibrate(out: Option<PathBuf>) -> Result<i32> {
+    let nowhere = || Error::refused("calibrate", "the system names no folder for configuration; give --out FILE");
+    let path = out.or_else(CostTable::user_path).ok_or_else(nowhere)?;
+    let table = CostTable::measure()?;
+    if let Err(error) = table.save(&path) {
+        complain(&error);
+        return Ok(NOT_WRITTEN);
+    }
+    print(&format!("{:<20} ns a step of a body: free, loaded, pivot, planar, grouped", table.machine));
+    for costs in &table.methods {
+        let columns: Vec<_> = BodyKind::ALL.iter().map(|&kind| format!("{:7.0}", 1e9 * costs.step.of(kind))).collect();
+        print(&format!("  {:<20}{}", costs.method.name(), columns.join("")));
+    }
+    print(&format!("written: {}", path.display()));
+    Ok(DONE)
+}
+
 /// Positions of the progress bar.
 const BAR: u32 = 1000;
 
@@ -262,7 +288,8 @@ fn bar_style() -> indicatif::ProgressStyle {
 
 /// End state, energy, events and report.
 fn summary(run: &Trajectory) -> Result<String> {
-    let mut text = format!("End: t = {} s\n", short(run.end()));
+    let by = run.ended_by().map_or_else(String::new, |name| format!(", by the event {name}"));
+    let mut text = format!("End: t = {} s{by}\n", short(run.end()));
     let Some(last) = run.times().len().checked_sub(1) else { return Ok(text + "no sample was reached") };
     let vector = |v: &[f64]| v.iter().map(|&x| short(x)).collect::<Vec<_>>().join(", ");
     for (body, motion) in run.plan().bodies().iter().zip(run.motions(last)).filter(|(body, _)| !body.fixed) {
@@ -313,7 +340,11 @@ fn summary(run: &Trajectory) -> Result<String> {
 
 fn explain(path: &Path, options: &Options) -> Result<i32> {
     let scene = Scene::load(path)?;
-    print(&scene.compile(&options.over(&scene.run))?.explain());
+    let mut run_options = options.over(&scene.run);
+    if let Some(&[start, end]) = options.span.as_deref() {
+        run_options.t_span = Some([start, end]);
+    }
+    print(&scene.compile(&run_options)?.explain_priced(&CostTable::of_user()?));
     Ok(DONE)
 }
 

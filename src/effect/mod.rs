@@ -13,6 +13,7 @@ pub mod drag;
 pub mod point_gravity;
 pub mod schedule;
 pub mod spring;
+pub mod switch;
 pub mod thruster;
 pub mod uniform_gravity;
 pub mod user;
@@ -22,6 +23,7 @@ pub use drag::Drag;
 pub use point_gravity::PointGravity;
 pub use schedule::Schedule;
 pub use spring::Spring;
+pub use switch::Switch;
 pub use thruster::Thruster;
 pub use uniform_gravity::UniformGravity;
 pub use user::UserEffect;
@@ -85,6 +87,11 @@ pub trait Effect: Debug + Send + Sync {
     /// Times at which the load jumps [s]; no step straddles one.
     fn switches(&self) -> Vec<f64> {
         Vec::new()
+    }
+
+    /// What turns it on and off by the state of its only body, if anything does.
+    fn switch(&self) -> Option<&Switch> {
+        None
     }
 
     /// Adds force [N] and torque about the centre of mass [N·m] of a body, world axes; of an effect that acts

@@ -1,6 +1,6 @@
 //! An engine fixed to a body.
 
-use super::{BodyMotion, Effect, Load, Moment, Schedule, Target, finite, power_of};
+use super::{BodyMotion, Effect, Load, Moment, Schedule, Switch, Target, finite, power_of};
 use crate::error::Result;
 use crate::math::Vector3;
 
@@ -11,7 +11,8 @@ use crate::math::Vector3;
 /// ```
 ///
 /// The factor is piecewise constant, 0 before the first time and held after the last; the switch
-/// happens exactly at its time, and no step straddles it.
+/// happens exactly at its time, and no step straddles it. With a [`Switch`] the state turns the engine on and off,
+/// whatever the factor.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -25,12 +26,23 @@ pub struct Thruster {
     /// Times [s] and the factor of the force from then on; factor 1 always, if absent.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub schedule: Option<Schedule>,
+    /// What turns it on and off by the state; always on if absent.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub switch: Option<Switch>,
 }
 
 impl Thruster {
     /// An engine on `body` at `point_body` [m] with `force_body` [N], always on.
     pub fn new(body: impl Into<String>, point_body: impl Into<[f64; 3]>, force_body: impl Into<[f64; 3]>) -> Self {
-        Self { body: body.into(), point_body: point_body.into(), force_body: force_body.into(), schedule: None }
+        let (point_body, force_body) = (point_body.into(), force_body.into());
+        Self { body: body.into(), point_body, force_body, schedule: None, switch: None }
+    }
+
+    /// What turns it on and off by the state.
+    #[must_use]
+    pub fn switch(mut self, switch: Switch) -> Self {
+        self.switch = Some(switch);
+        self
     }
 
     /// Pairs of time [s] and factor.
@@ -45,6 +57,9 @@ impl Effect for Thruster {
     fn validate(&self, place: &str) -> Result<()> {
         finite(place, "point_body", self.point_body)?;
         finite(place, "force_body", self.force_body)?;
+        if let Some(switch) = &self.switch {
+            switch.validate(place)?;
+        }
         Schedule::validate(self.schedule.as_ref(), place)
     }
 
@@ -58,6 +73,10 @@ impl Effect for Thruster {
 
     fn switches(&self) -> Vec<f64> {
         Schedule::times(self.schedule.as_ref())
+    }
+
+    fn switch(&self) -> Option<&Switch> {
+        self.switch.as_ref()
     }
 
     fn depends_on_velocity(&self) -> bool {

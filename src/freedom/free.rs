@@ -24,6 +24,11 @@ impl Free {
         &self.spin
     }
 
+    /// The inverses of its mass [1/kg] and of its principal moments [1/(kg·m²)].
+    pub(crate) fn inverses(&self) -> (f64, &Vector3) {
+        (self.inv_mass, self.spin.inv_moments())
+    }
+
     #[inline]
     pub(super) fn flow(&self, y: &mut [f64], rest: &mut [f64], h: f64, split: RotationSplit) {
         for i in 0..3 {

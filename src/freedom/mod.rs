@@ -19,7 +19,7 @@ mod axle;
 mod free;
 mod pivot;
 mod planar;
-mod spin;
+pub(crate) mod spin;
 
 pub(crate) use spin::Spin;
 pub use spin::{Form, RotationSplit};

@@ -154,6 +154,11 @@ impl Spin {
         }
     }
 
+    /// Inverses of the principal moments about the point [1/(kg·m²)].
+    pub(super) fn inv_moments(&self) -> &Vector3 {
+        &self.inv_moments
+    }
+
     /// `I⁻¹ v`, body axes.
     pub(super) fn over_inertia(&self, v: &Vector3) -> Vector3 {
         self.inv_inertia * v
@@ -317,11 +322,9 @@ impl Spin {
         let q: [f64; 4] = std::array::from_fn(|i| y[i] + (dy[i] + rest[i]));
         let e = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
         let (c, strayed) = if e.abs() < SMALL_STRAY {
-            let c = e * ((-0.5 + e * 0.375) + e * e * (-0.3125 + e * 0.2734375));
-            (c, e.abs() * (0.5 - 0.125 * e))
+            (small_correction(e), e.abs() * (0.5 - 0.125 * e))
         } else {
-            let length = (1.0 + e).sqrt();
-            ((1.0 - length) / length, (length - 1.0).abs())
+            (large_correction(e), ((1.0 + e).sqrt() - 1.0).abs())
         };
         for (dy, q) in dy[..4].iter_mut().zip(q) {
             *dy += c * q;
@@ -351,7 +354,20 @@ impl Spin {
 }
 
 /// Stray of `|q|²` below which four terms of the series are exact to rounding [-]: e⁵/4 < 1e-18.
-const SMALL_STRAY: f64 = 3.0e-4;
+pub(crate) const SMALL_STRAY: f64 = 3.0e-4;
+
+/// The correction `c = 1/|q| − 1` for a stray `e = |q|² − 1` below [`SMALL_STRAY`].
+#[inline(always)]
+pub(crate) fn small_correction(e: f64) -> f64 {
+    e * ((-0.5 + e * 0.375) + e * e * (-0.3125 + e * 0.2734375))
+}
+
+/// The same for any stray.
+#[inline(always)]
+pub(crate) fn large_correction(e: f64) -> f64 {
+    let length = (1.0 + e).sqrt();
+    (1.0 - length) / length
+}
 
 /// A body that is turned by known rotations: q and L in its own axes, as seven numbers, each with its rest.
 ///

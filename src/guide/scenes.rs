@@ -246,6 +246,11 @@
 //! | `point_body` | m | must be given | where it pushes, from the centre of mass |
 //! | `force_body` | N | must be given | the force at factor 1 |
 //! | `schedule` | s, – | always 1 | pairs of a time and the factor from then on; 0 before the first, held after the last |
+//! | `switch` | | always on | turns it on and off by the state, see below |
+//!
+//! A `switch` has a `measure` of the body, as [events](#events) have, and two values: with `on` below `off` the engine
+//! turns on once the measure has fallen to `on`, and off once it has risen to `off`; with `on` above `off` the other way
+//! round. Between the two it stays as it is; at the start it is off there, unless `starts_on` is true.
 //!
 //! `wrench`: a given force and torque.
 //!
@@ -308,6 +313,14 @@
 //! point_body = [0.0, 0.0, -0.5]
 //! force_body = [0.0, 0.0, 120.0]
 //! schedule = [[0.0, 1.0], [4.0, 0.5], [6.0, 0.0]]   # full for 4 s, half for 2 s, off
+//!
+//! # holds the probe between 1 and 2 m/s downwards
+//! [[effects]]
+//! [effects.thruster]
+//! body = "probe"
+//! point_body = [0.0, 0.0, -0.5]
+//! force_body = [0.0, 0.0, 150.0]
+//! switch = { measure.velocity = [0.0, 0.0, 1.0], on = -2.0, off = -1.0, starts_on = false }
 //!
 //! [[effects]]
 //! [effects.wrench]

@@ -95,6 +95,10 @@ pub trait Flight: Debug + Send {
     /// As [`interpolate`](Self::interpolate).
     fn pass_switch(&mut self) -> Result<(), FlightError>;
 
+    /// Leaves out the effects at these places of the scene from the front on, and no others; a closed form has none
+    /// to leave out.
+    fn leave_out(&mut self, _effects: &[usize]) {}
+
     /// What has been done so far.
     fn counts(&self) -> &Counts;
 
@@ -206,6 +210,12 @@ impl<P: Problem> Flight for Integration<P> {
         self.front.since = self.front.time.value;
         self.integrator.restart();
         Ok(())
+    }
+
+    fn leave_out(&mut self, effects: &[usize]) {
+        if self.problem.leave_out(effects) {
+            self.integrator.restart();
+        }
     }
 
     fn counts(&self) -> &Counts {

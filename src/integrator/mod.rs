@@ -202,6 +202,9 @@ pub trait Problem: Debug + Send {
     /// The motion of every body, read from the numbers.
     fn decode(&self, y: &[f64], motions: &mut [BodyMotion]);
 
+    /// Leaves out the effects at these places of the scene, and no others; whether that is a change.
+    fn leave_out(&mut self, effects: &[usize]) -> bool;
+
     /// What a user's function complained about, once.
     fn take_failure(&mut self) -> Option<String>;
 }

@@ -92,6 +92,11 @@ impl Plan {
         let effects = if effects.is_empty() { "nothing acts on it".to_owned() } else { effects.join(", ") };
         writeln!(out, "  {:<10} {effects}", "")?;
         writeln!(out, "  {:<10} {}: {}", "", group.method, group.why)?;
+        for toggle in &group.toggles {
+            let (switch, name) = (&toggle.switch, toggle.switch.measure.name());
+            let (on, off) = (short(switch.on), short(switch.off));
+            writeln!(out, "  {:<10} {} on at {name} {on}, off at {off}", "", toggle.name)?;
+        }
         for watch in &group.watches {
             let event = &self.options.events[watch.event];
             let (value, bodies) = (short(event.value), event.bodies.join(", "));

@@ -144,6 +144,8 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
 pub struct Group<K> {
     charts: Vec<Chart>,
     bindings: Vec<Binding>,
+    /// Effects that are left out, by their places in the scene; none of them is constant.
+    off: Vec<usize>,
     motions: Vec<BodyMotion>,
     loads: Vec<Load>,
     /// Of these, what depends neither on time nor on the motion.
@@ -169,6 +171,7 @@ impl<K: Kind> Group<K> {
             depends_on_velocity,
             charts,
             bindings: constant,
+            off: Vec::new(),
             motions,
             loads: vec![Load::zero(); n],
             constant: vec![Load::zero(); n],
@@ -238,6 +241,9 @@ impl<K: Kind> Group<K> {
     fn add_loads(&mut self, at: Moment) {
         self.loads.copy_from_slice(&self.constant);
         for binding in &self.bindings {
+            if self.off.contains(&binding.effect_index) {
+                continue;
+            }
             let effect = binding.effect.as_effect();
             if binding.members.len() == self.motions.len() && binding.in_order {
                 effect.add_to(at, &self.motions, &mut self.loads);
@@ -373,6 +379,14 @@ impl<K: Kind> Problem for Group<K> {
 
     fn decode(&self, y: &[f64], motions: &mut [BodyMotion]) {
         Self::decode_into(&self.charts, y, motions);
+    }
+
+    fn leave_out(&mut self, effects: &[usize]) -> bool {
+        let changes = self.off != effects;
+        if changes {
+            self.off = effects.to_vec();
+        }
+        changes
     }
 
     fn take_failure(&mut self) -> Option<String> {

@@ -20,12 +20,14 @@ use crate::scene::{Body, Orientation, RunOptions, Scene};
 use crate::shape::Shape;
 use crate::state::{BodyMotion, BodyState};
 
+pub mod cost;
 mod explain;
 mod group;
 mod method;
 mod watch;
 
 pub use group::{Any, Group};
+pub(crate) use watch::Toggle;
 
 /// A body of the plan.
 #[derive(Debug, Clone)]
@@ -60,6 +62,8 @@ impl PlannedBody {
 #[derive(Debug, Clone)]
 pub(crate) struct Binding {
     pub(crate) effect: Arc<AnyEffect>,
+    /// Its place in the scene.
+    pub(crate) effect_index: usize,
     pub(crate) members: Vec<usize>,
     /// Whether the members stand in rising order, so that all of a group's are the group.
     pub(crate) in_order: bool,
@@ -90,6 +94,8 @@ pub struct FlightGroup {
     pub switches: Vec<f64>,
     /// The events that it watches for.
     pub(crate) watches: Vec<watch::Watch>,
+    /// The loads that the state turns on and off.
+    pub(crate) toggles: Vec<Toggle>,
     /// The moving bodies that may meet a fixed plane.
     pub(crate) pairs: Vec<Pair>,
 }
@@ -420,7 +426,8 @@ impl Grouping {
                 grouping.join(&members, bodies);
             }
             let in_order = members.is_sorted();
-            grouping.bindings.push(Binding { effect: Arc::new(effect.clone()), members, in_order, together });
+            let effect = Arc::new(effect.clone());
+            grouping.bindings.push(Binding { effect, effect_index: index, members, in_order, together });
         }
         Ok(grouping)
     }
@@ -469,6 +476,7 @@ impl Grouping {
                 let local: Vec<usize> = wanted.into_iter().map(&mut place).collect();
                 bindings.push(Binding {
                     effect: binding.effect.clone(),
+                    effect_index: binding.effect_index,
                     in_order: local.is_sorted(),
                     members: local,
                     together: binding.together,
@@ -478,8 +486,10 @@ impl Grouping {
             switches.sort_by(f64::total_cmp);
             switches.dedup();
             let (method, why) = (Method::Exact, String::new());
-            let (watches, pairs) = (Vec::new(), Vec::new());
-            let mut group = FlightGroup { members, bindings, has_kinks: false, method, why, switches, watches, pairs };
+            let (watches, toggles, pairs) = (Vec::new(), watch::toggles(&bindings, scene), Vec::new());
+            let has_kinks = false;
+            let mut group =
+                FlightGroup { members, bindings, has_kinks, method, why, switches, watches, toggles, pairs };
             let (starts, mut kinks) = (group.members.iter().map(|&i| bodies[i].start).collect::<Vec<_>>(), Vec::new());
             group.kinks(&starts, &mut kinks);
             group.has_kinks = !kinks.is_empty();

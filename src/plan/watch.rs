@@ -1,6 +1,7 @@
-//! Which flight group watches for which event.
+//! Which flight group watches for which event, and which of its loads the state switches.
 
-use super::{FlightGroup, PlannedBody};
+use super::{Binding, FlightGroup, PlannedBody};
+use crate::effect::Switch;
 use crate::error::{Error, Result};
 use crate::scene::{RunOptions, Scene};
 
@@ -11,6 +12,28 @@ pub(crate) struct Watch {
     pub(crate) event: usize,
     /// Its bodies, as places in the group.
     pub(crate) members: Vec<usize>,
+}
+
+/// A load that the state switches.
+#[derive(Debug, Clone)]
+pub(crate) struct Toggle {
+    /// What events and messages call it.
+    pub(crate) name: String,
+    /// The effect, as a place in the scene.
+    pub(crate) effect: usize,
+    /// Its body, as a place in the group.
+    pub(crate) member: usize,
+    pub(crate) switch: Switch,
+}
+
+/// The switched loads among those of a group.
+pub(super) fn toggles(bindings: &[Binding], scene: &Scene) -> Vec<Toggle> {
+    let toggle = |binding: &Binding| {
+        let switch = binding.effect.as_effect().switch()?.clone();
+        let name = scene.effect_place(binding.effect_index);
+        Some(Toggle { name, effect: binding.effect_index, member: *binding.members.first()?, switch })
+    };
+    bindings.iter().filter_map(toggle).collect()
 }
 
 /// The bodies of every event, as places in the scene.

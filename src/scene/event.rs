@@ -52,6 +52,23 @@ impl Direction {
 /// bounds of g, not by the signs at their ends, so that double roots and close pairs are seen; a touch is told where
 /// g comes to 0 within its rounding and goes back. A zero at the very start is no event, nor is one that the run
 /// ends on before g is seen leaving. Bodies of one event share one integrator and one clock.
+///
+/// ```
+/// use bryla::{Body, Direction, Measure, RunOptions, Scene, Sphere, UniformGravity, UserEvent};
+///
+/// let mut scene = Scene::new();
+/// scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
+/// scene.add(Body::new("ball", Sphere::new(0.1)).mass(1.0).velocity([1.0, 0.0, 6.0]))?;
+/// let landing = UserEvent::new("landing", Measure::Position([0.0, 0.0, 1.0]), ["ball"]);
+/// let top = UserEvent::of_function("top", |_, bodies| Ok(bodies[0].velocity.z), ["ball"]);
+///
+/// let landing = landing.direction(Direction::Falling).terminal(true);
+/// let run = scene.run(0.0..10.0, &RunOptions::tolerance(1e-9).event(top).event(landing))?;
+/// assert_eq!(run.ended_by(), Some("landing"));
+/// assert!((run.events()[0].time - 6.0 / 9.81).abs() < 1e-14);
+/// assert!((run.end() - 12.0 / 9.81).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

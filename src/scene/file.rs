@@ -6,6 +6,7 @@ use std::path::Path;
 use super::Scene;
 use crate::effect::AnyEffect;
 use crate::error::{Error, Result};
+use crate::measure::Measure;
 
 /// The two languages of scene files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,12 +70,19 @@ impl Scene {
 
     /// Refuses a scene that has no text.
     pub(crate) fn check_writable(&self) -> Result<()> {
-        match self.effects.iter().position(|effect| matches!(effect, AnyEffect::User(_))) {
-            Some(index) => {
-                Err(Error::refused(self.effect_place(index), "a user effect is code and cannot be written to a file"))
-            }
-            None => self.run.check_writable(),
+        for (index, effect) in self.effects.iter().enumerate() {
+            let switch = effect.as_effect().switch();
+            let what = match effect {
+                AnyEffect::User(_) => "a user effect",
+                _ if switch.is_some_and(|switch| matches!(switch.measure, Measure::Function(_))) => "a function",
+                _ => continue,
+            };
+            return Err(Error::refused(
+                self.effect_place(index),
+                format!("{what} is code and cannot be written to a file"),
+            ));
         }
+        self.run.check_writable()
     }
 
     /// Reads a scene from a file; meshes that it names are read too, relative paths

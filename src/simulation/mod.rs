@@ -22,11 +22,14 @@ use crate::trajectory::{Event, EventKind, Phase, Trajectory};
 pub(crate) mod clock;
 pub(crate) mod estimate;
 mod observe;
+mod predict;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
+mod switching;
 mod turn;
 
+pub use predict::Prediction;
 pub use run::{Observer, Progress};
 
 /// A run that cannot go on. Nothing computed is lost: `trajectory` ends where the run did.
@@ -116,6 +119,11 @@ struct Lane {
     cursor: usize,
     /// What is known of the user's events, in the order of the group's.
     watchers: Vec<observe::Watcher>,
+    /// The loads that the state switches, in the order of the group's; where a step that was taken back must end;
+    /// and the one that is due at a time [s].
+    switched: Vec<switching::Switched>,
+    ahead: Option<switching::Ahead>,
+    due: Option<(usize, f64)>,
 }
 
 /// A running scene.
@@ -179,6 +187,9 @@ impl Simulation {
                 phase: group,
                 cursor: 0,
                 watchers: vec![observe::Watcher::default(); spec.watches.len()],
+                switched: plan.switched(spec, span.start)?,
+                ahead: None,
+                due: None,
             });
         }
         let (events, ended) = (Vec::new(), None);
@@ -278,7 +289,12 @@ impl Simulation {
         let spec = &plan.groups()[lane.group];
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        if !spec.pairs.is_empty() || !spec.watches.is_empty() || plan.tolerance().is_some() || switch <= to {
+        if !spec.pairs.is_empty()
+            || !spec.watches.is_empty()
+            || !spec.toggles.is_empty()
+            || plan.tolerance().is_some()
+            || switch <= to
+        {
             return Ok(());
         }
         let taken = lane.flight.advance_past(to, switch.min(self.end));
@@ -297,7 +313,9 @@ impl Simulation {
         let begin = (plan.tolerance().is_some() && lane.corrections < turn::CORRECTIONS)
             .then(|| lane.kinks_at_front(spec))
             .flatten();
-        let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY));
+        let begun = lane.begin_switched(spec);
+        let turn = lane.ahead.map_or(f64::INFINITY, |ahead| ahead.time);
+        let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY)).min(turn);
         if let Err(error) = lane.flight.advance(limit) {
             return Err(self.failure(index, front, error.into()));
         }
@@ -308,7 +326,14 @@ impl Simulation {
             (lane.kink, lane.corrections) = (None, 0);
         }
 
+        if let Some(begun) = begun
+            && self.find_turn(index, &begun)?
+        {
+            return Ok(());
+        }
+
         // the motion within the step, where someone looks at it
+        let lane = &mut self.lanes[index];
         let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
         if (looked_at || !spec.pairs.is_empty() || !spec.watches.is_empty())
             && let Err(error) = lane.flight.interpolate()
@@ -329,12 +354,16 @@ impl Simulation {
             lane.nodes.push(lane.flight.front());
         }
         if let (Some(run), true) = (record.as_mut(), looked_at) {
+            let off = lane.loads_off(spec);
+            lane.phase = run.phase_with(lane.phase, &off, lane.flight.segment().start);
             let mut scratch = Vec::new();
             run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
         }
+        self.turn_due(index)?;
         if let Some((_, iterations)) = first {
             return self.answer_touches(index, iterations, record);
         }
+        let lane = &mut self.lanes[index];
         if lane.flight.front() >= switch
             && let Err(error) = lane.flight.pass_switch()
         {
@@ -528,6 +557,7 @@ impl Plan {
             group,
             start: t,
             charts: self.charts(group, held)?,
+            off: Vec::new(),
             segments: Vec::new(),
             motions: motions.to_vec(),
         })

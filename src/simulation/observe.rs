@@ -6,7 +6,7 @@
 use super::{Failure, Simulation, SimulationError};
 use crate::math::roots::{NoRoots, Track, find_roots};
 use crate::tolerance::{EVENTS_ACCUMULATE, EVENTS_SHRINKING};
-use crate::trajectory::Event;
+use crate::trajectory::{Event, EventKind};
 
 /// What is known of one event up to the front.
 #[derive(Debug, Clone, Copy, Default)]
@@ -19,20 +19,28 @@ pub(super) struct Watcher {
 /// How fast instants follow each other.
 #[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Rhythm {
+pub(super) struct Rhythm {
     /// The last instant [s].
     last: Option<f64>,
     /// The last interval [s], the longest of those that shrank down to it, and how many they are.
     interval: f64,
     longest: f64,
     shrinking: u32,
+    /// How many instants are the same.
+    at_once: u32,
 }
 
 impl Rhythm {
+    /// How many of the last instants are one.
+    pub(super) fn at_once(&self) -> u32 {
+        self.at_once
+    }
+
     /// Whether the instants run up to a limit, this one being the next.
-    fn accumulates(&mut self, time: f64) -> bool {
+    pub(super) fn accumulates(&mut self, time: f64) -> bool {
         let Some(last) = self.last.replace(time) else { return false };
         let interval = time - last;
+        self.at_once = if interval > 0.0 { 0 } else { self.at_once + 1 };
         if self.longest > 0.0 && interval <= self.interval {
             self.shrinking += 1;
         } else {
@@ -93,7 +101,7 @@ impl Simulation {
                 [watch.members.first(), watch.members.last()].map(|member| spec.members[*member.unwrap_or(&0)]);
             for root in roots.into_iter().filter(|root| event.direction.counts(root.passage)) {
                 let time = start + root.at;
-                self.events.push(Event::of_user(time, event, root.passage, bodies));
+                self.events.push(Event::watched(time, EventKind::User, name(), root.passage, bodies));
                 if event.terminal && self.ended.as_ref().is_none_or(|(ended, _)| time < *ended) {
                     self.ended = Some((time, name()));
                 }

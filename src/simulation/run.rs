@@ -142,16 +142,7 @@ impl Plan {
         }
         let course = Course { plan: Arc::new(self.clone()), span, times };
         let estimates = self.options().estimate;
-        let mut pace = Pace::first(
-            self,
-            span,
-            tolerance,
-            if estimates {
-                FIRST_LOCAL * trusted(full_gain(self.method())) * full_gain(self.method())
-            } else {
-                FIRST_LOCAL
-            },
-        );
+        let mut pace = Pace::first(self, span, tolerance);
         let began = thread_seconds();
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
@@ -368,14 +359,16 @@ fn observed_gain(method: Method, coarser: &Trajectory, coarse: &Trajectory, fine
 }
 
 /// How fine the first run of a round is.
-struct Pace {
-    control: Control,
+pub(super) struct Pace {
+    pub(super) control: Control,
 }
 
 impl Pace {
     /// The first try: steps whose error is a part of the tolerance, or that follow every body's turning.
-    fn first(plan: &Plan, span: Span, tolerance: f64, part: f64) -> Self {
+    pub(super) fn first(plan: &Plan, span: Span, tolerance: f64) -> Self {
         let time = span.end - span.start;
+        let gain = full_gain(plan.method());
+        let part = if plan.options().estimate { FIRST_LOCAL * trusted(gain) * gain } else { FIRST_LOCAL };
         if !plan.method().controls_error() {
             return Self { control: Control::Step(plan.first_step(time)) };
         }

@@ -35,6 +35,8 @@ struct SavedLane {
     motions: Vec<BodyMotion>,
     #[serde(default)]
     watchers: Vec<super::observe::Watcher>,
+    #[serde(default)]
+    switched: Vec<super::switching::Switched>,
 }
 
 /// Version of the file's layout.
@@ -55,6 +57,7 @@ impl Simulation {
             held: lane.held.clone(),
             motions: lane.motions.clone(),
             watchers: lane.watchers.clone(),
+            switched: lane.switched.clone(),
         });
         let saved = Saved {
             bryla: VERSION.to_owned(),
@@ -107,7 +110,10 @@ impl Lane {
         step: f64,
         saved: SavedLane,
     ) -> Option<Result<()>> {
-        if saved.motions.len() != self.motions.len() || saved.watchers.len() != self.watchers.len() {
+        let fits = saved.motions.len() == self.motions.len()
+            && saved.watchers.len() == self.watchers.len()
+            && saved.switched.len() == self.switched.len();
+        if !fits {
             return None;
         }
         match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
@@ -123,6 +129,7 @@ impl Lane {
         self.held = saved.held;
         self.motions = saved.motions;
         self.watchers = saved.watchers;
+        self.switched = saved.switched;
         Some(Ok(()))
     }
 }

@@ -168,3 +168,24 @@ fn comparing_by_tolerance_shows_errors_below_it_and_rising_cost() {
                 exact, got [1e-5, 1e-7, 1e-9]";
     assert_eq!(message, said);
 }
+
+#[test]
+fn the_plan_takes_a_splitting_where_a_conservative_motion_is_long_and_wanted_exactly() {
+    let mut scene = Scene::new();
+    scene.add_effect(bryla::UniformGravity::new([0.0, 0.0, -9.81]));
+    let inertia = bryla::math::Matrix3::from_diagonal(&[0.01, 0.013, 0.004].into());
+    let top = Body::with_inertia("top", 1.0, inertia).position([0.0, 0.0, 0.1]).angular_velocity([0.5, 0.3, 40.0]);
+    scene
+        .add(top.freedom(bryla::freedom::Freedom::Pivot(bryla::freedom::Pivot { point_body: [0.0, 0.0, -0.1] })))
+        .unwrap();
+    let chosen = |scene: &Scene, end: f64, tolerance: f64| {
+        let options = RunOptions { t_span: Some([0.0, end]), ..RunOptions::tolerance(tolerance) };
+        scene.compile(&options).unwrap().method()
+    };
+    // 40 rad/s: 3,000 turns take 471 s
+    assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Split6);
+    assert_eq!(chosen(&scene, 400.0, 1e-9), Method::Dop853);
+    assert_eq!(chosen(&scene, 700.0, 1e-6), Method::Dop853);
+    scene.add_effect(bryla::Drag { angular_linear: 1e-6, ..bryla::Drag::default() });
+    assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Dop853);
+}

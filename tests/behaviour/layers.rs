@@ -17,7 +17,7 @@ const LAYERS: &[&[&str]] = &[
     &["report", "trajectory"],
     &["simulation"],
     &["reference"],
-    &["compare", "batch"],
+    &["compare", "calibrate", "batch"],
     &["catalogue", "export"],
     &["cli"],
     &["guide"],

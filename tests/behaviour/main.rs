@@ -13,6 +13,7 @@ mod freedoms;
 mod layers;
 mod order;
 mod promises;
+mod switching;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};
 
@@ -24,6 +25,10 @@ fn free_body() -> Scene {
     scene.add(body.orientation([0.8, 0.1, -0.5, 0.316227766016838]).angular_velocity([1.1, -0.7, 0.9])).unwrap();
     scene
 }
+
+/// The slope of a method is measured where the error lies between 1e3 times the rounding of the run and 1e-2.
+const LARGEST_ERROR: f64 = 1e-2;
+const SMALLEST_ERROR: f64 = 1e-11;
 
 /// The methods that take steps: all but the closed form, which has no step and no slope.
 fn stepping() -> impl Iterator<Item = Method> {

@@ -1,6 +1,6 @@
 //! The order of every method, on problems without symmetry.
 
-use super::{distance, free_body, last, run, stepping};
+use super::{LARGEST_ERROR, SMALLEST_ERROR, distance, free_body, last, run, stepping};
 use bryla::{Method, Orientation, RunOptions, Scene, Wrench};
 
 /// The free body, driven by a torque and a force that oscillate, at a point off the centre of mass.
@@ -10,10 +10,6 @@ fn driven_body() -> Scene {
     scene.add_effect(wrench.frame(bryla::Frame::Body).oscillating(1.7, 0.3));
     scene
 }
-
-/// The slope is measured where the error lies between 1e3 times the rounding of the run and 1e-2.
-const LARGEST_ERROR: f64 = 1e-2;
-const SMALLEST_ERROR: f64 = 1e-11;
 
 #[test]
 fn halving_the_step_divides_the_error_by_two_to_the_order() {

@@ -1,0 +1,133 @@
+//! What a run is predicted to take.
+
+use std::fmt::Write;
+
+use super::run::Pace;
+use crate::effect::AnyEffect;
+use crate::integrator::{Control, Method};
+use crate::plan::Plan;
+use crate::plan::cost::{BodyKind, CostTable};
+use crate::scene::{Record, Span};
+use crate::text::short;
+
+/// Steps and time of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// Steps of the run whose result is kept [-].
+    pub steps: f64,
+    /// Time of that run [s].
+    pub run: f64,
+    /// Time of the runs from which its error is estimated [s].
+    pub estimate: f64,
+}
+
+/// Most steps of a probe [-].
+const PROBE: u32 = 256;
+/// Fewest steps of a probe, and the least part of the span that it covers [-].
+const PROBE_LEAST: (u32, f64) = (16, 1.0 / 64.0);
+
+impl Plan {
+    /// What a run over a span takes by these costs, if its first try keeps the tolerance. Where the steps follow the
+    /// error, a few are taken to see how long they are. None where a function of the user has its own price, and
+    /// where a step breaks off.
+    pub fn predict(&self, span: impl Into<Span>, costs: &CostTable) -> Option<Prediction> {
+        let span = span.into();
+        let options = self.options();
+        let mut prediction = Prediction { steps: 0.0, run: 0.0, estimate: 0.0 };
+        for (index, group) in self.groups().iter().enumerate() {
+            if group.bindings.iter().any(|binding| matches!(binding.effect.as_ref(), AnyEffect::User(_))) {
+                return None;
+            }
+            if group.method == Method::Exact {
+                continue;
+            }
+            let first = match (options.step, self.tolerance()) {
+                (Some(step), _) => (span.end - span.start) / step,
+                (None, tolerance) => self.first_steps(index, span, tolerance?)?,
+            };
+
+            // with a step the estimate takes half of them; to a tolerance the result takes four times as many as
+            // the first of three runs, and the others three times
+            let (run, estimate) = match (options.estimate, options.step) {
+                (false, _) => (1.0, 0.0),
+                (true, Some(_)) => (1.0, 0.5),
+                (true, None) => (4.0, 3.0),
+            };
+            let kind = BodyKind::of(group, self.bodies());
+            let moving = group.members.iter().filter(|&&i| !self.bodies()[i].fixed).count();
+            let step = costs.step(group.method, kind, options.record == Record::Dense)? * moving as f64;
+            prediction.steps += run * first;
+            prediction.run += run * first * step;
+            prediction.estimate += estimate * first * step;
+        }
+        Some(prediction)
+    }
+
+    /// Steps that the first try to a tolerance takes in a group.
+    fn first_steps(&self, group: usize, span: Span, tolerance: f64) -> Option<f64> {
+        let length = span.end - span.start;
+        let control = Pace::first(self, span, tolerance).control;
+        if let Control::Step(step) = control {
+            return Some(length / step);
+        }
+        let mut flight = self.flight(group, span.start, &control).ok()?;
+        let mut steps = 0;
+        while flight.front() < span.end && steps < PROBE {
+            flight.advance(span.end).ok()?;
+            steps += 1;
+            if steps >= PROBE_LEAST.0 && flight.front() - span.start >= PROBE_LEAST.1 * length {
+                break;
+            }
+        }
+        Some(f64::from(steps) * length / (flight.front() - span.start))
+    }
+
+    /// [`explain`](Self::explain), and what a run over the span of the options is predicted to take by these costs.
+    pub fn explain_priced(&self, costs: &CostTable) -> String {
+        let mut text = self.explain();
+        let Some(span) = self.options().t_span else { return text };
+        // writing to a string cannot fail
+        let _ = match self.predict(span, costs) {
+            Some(Prediction { steps: 0.0, .. }) => write!(text, "\n  predicted  no steps"),
+            Some(Prediction { steps, run, estimate }) => write!(
+                text,
+                "\n  predicted  {} steps, {} s run, {} s estimate ({})",
+                short(libm::round(steps)),
+                short(run),
+                short(estimate),
+                costs.machine
+            ),
+            None => write!(text, "\n  predicted  nothing: a function of the user has its own price"),
+        };
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+    use crate::scene::RunOptions;
+
+    #[test]
+    fn the_steps_predicted_are_those_that_are_taken_within_a_factor_of_two() {
+        for name in ["heavy_top", "thrown_ball", "spinning_book"] {
+            let scene = catalogue::scene(name).unwrap().unwrap();
+            let span = scene.run.t_span.unwrap();
+            let ways = [
+                RunOptions { t_span: Some(span), ..RunOptions::tolerance(1e-8) },
+                RunOptions { t_span: Some(span), estimate: false, ..RunOptions::tolerance(1e-8) },
+                RunOptions { t_span: Some(span), ..RunOptions::method(Method::Rk4).step((span[1] - span[0]) / 1000.0) },
+            ];
+            for options in ways {
+                let plan = scene.compile(&options).unwrap();
+                let predicted = plan.predict(span, &CostTable::shipped()).unwrap();
+                let taken = plan.run(span).unwrap().report().counts.steps as f64;
+                // a closed form has no steps, but the one that the run looks at it in
+                let ratio = (predicted.steps + 1.0) / taken;
+                assert!((0.5..2.0).contains(&ratio), "{name}, {options:?}: {predicted:?}, taken {taken}");
+                assert!(plan.explain_priced(&CostTable::shipped()).contains("\n  predicted  "));
+            }
+        }
+    }
+}
