@@ -1,7 +1,30 @@
-//! The time of contact: between two instants, when does a gap close (lecture §7)?
+//! The time of contact: when do two moving bodies first touch (lecture §7)?
 //!
-//! The finders here keep the lecture's terms: they see a collision where the interval ends in
-//! overlap. A pass-through within the interval leaves no change of sign, and is not seen.
+//! | finder | file | what it does |
+//! |---|---|---|
+//! | [`Finder::Bisection`] | `bisection` | the lecture's: halves the interval; sees what ends in overlap |
+//! | [`Finder::Secant`] | `secant` | the lecture's acceleration, its bracket kept; sees the same |
+//! | [`Finder::Guaranteed`] | `guaranteed` | proves every piece of the way free; misses nothing |
+//!
+//! The first two look at the ends of the interval: a pass-through leaves no change of sign there, and is
+//! not seen. The guaranteed search works on any [`Moving`] body: one that tells its pose at any time and
+//! bounds of its motion over any interval.
+//!
+//! Accepted is only a gap in (0, ε], never an overlap.
+
+mod bisection;
+mod ends;
+mod guaranteed;
+pub mod motion;
+mod secant;
+
+pub use ends::Found;
+pub use motion::{Instant, Motion, MotionBounds, Moving};
+
+use crate::closest::{Accuracy, ClosestFeatures, PairCache, closest_features};
+use crate::error::{Error, Result};
+use crate::shape::convex_polyhedron::ConvexPolyhedron;
+use crate::tolerance::IMPACT_GAP;
 
 /// How the time of contact is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -11,37 +34,56 @@ pub enum Finder {
     /// Halve the interval, keep the half with the change of sign.
     Bisection,
     /// The straight line through both ends, with halvings between so that it cannot stall.
-    #[default]
     Secant,
+    /// Advance only as far as no contact is proved.
+    #[default]
+    Guaranteed,
 }
 
 impl Finder {
     /// Every finder.
-    pub const ALL: &'static [Self] = &[Self::Bisection, Self::Secant];
+    pub const ALL: &'static [Self] = &[Self::Bisection, Self::Secant, Self::Guaranteed];
 
     /// The name that files and Python use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bisection => "bisection",
             Self::Secant => "secant",
+            Self::Guaranteed => "guaranteed",
         }
     }
 }
 
 /// How a search for an impact ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// The interval ends free: no impact that these finders can see.
+    /// No impact: proved by the guaranteed search, not seen by the others.
     Clear,
-    /// The gap is in 0..=ε at this time from the interval's start [s].
-    At(f64),
-    /// The gap never leaves 0..=ε before it closes: the bodies rest on each other, or bounce too low
-    /// to be told apart from resting.
+    /// The gap is in (0, ε] and closes.
+    At,
+    /// The search starts with a gap within ε that closes, or that stays.
     AlreadyTouching,
-    /// The interval starts in overlap of this depth [m].
-    Overlap(f64),
-    /// The interval has shrunk to this time [s] without a gap in 0..=ε.
-    Stalled(f64),
+    /// The search starts in overlap.
+    Overlap,
+    /// The gap came within (0, ε] and opens again, without ever being below −ε: whether the bodies
+    /// touched is less than ε tells.
+    Grazing,
+    /// No instant with a gap in (0, ε] can be told: ε is below what rounding leaves.
+    Stalled,
+}
+
+impl Outcome {
+    /// The name that Python uses.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clear => "clear",
+            Self::At => "at",
+            Self::AlreadyTouching => "already_touching",
+            Self::Overlap => "overlap",
+            Self::Grazing => "grazing",
+            Self::Stalled => "stalled",
+        }
+    }
 }
 
 /// The end of a search, and what it cost.
@@ -49,127 +91,106 @@ pub enum Outcome {
 pub struct Impact {
     /// How it ended.
     pub outcome: Outcome,
+    /// When [s]: of the impact or graze; the end of the search where it is clear; how far it came where
+    /// it stalled; else its start.
+    pub time: f64,
     /// Rounds of the finder.
     pub iterations: u32,
-    /// Evaluations of the gap.
+    /// Queries of the closest features, or evaluations of the gap.
     pub queries: u32,
+    /// The closest features at that time.
+    pub closest: ClosestFeatures,
 }
 
-/// Finds the impact in 0..=`h` [s], given the gap [m] as a function of time from the start. Accepted
-/// is only a gap in 0..=`eps` [m], never an overlap.
-pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Finder) -> Impact {
-    let mut queries = 0;
-    let mut gap = |t: f64| {
-        queries += 1;
-        gap(t)
+/// Finds the first impact of two moving bodies in 0..=`t_max` [s].
+///
+/// `eps` [m] is the gap at which contact is accepted; without it 1e-12 of the pair's size (both radii),
+/// and never less than the rounding of its coordinates. A smaller one is found later by less than
+/// `eps` over the speed of approach, at one or two more rounds.
+///
+/// A pair that starts within ε and separates is searched on from where its gap exceeds ε, or from where
+/// its approach resumes.
+///
+/// # Errors
+/// A span or ε that is not positive and finite; motions that are not finite.
+///
+/// # Example
+/// ```
+/// # fn main() -> Result<(), bryla::Error> {
+/// use bryla::impact::{Finder, Motion, Outcome, time_of_impact};
+/// use bryla::{Pose, shape::convex_polyhedron::ConvexPolyhedron};
+///
+/// let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| [0, 1, 2].map(|i| if k >> i & 1 == 0 { -0.5 } else { 0.5 }));
+/// let cube = ConvexPolyhedron::from_points(&corners)?;
+/// let rests = Motion::resting(Pose::identity());
+/// let comes = Motion::new(Pose::new([3.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]), [-4.0, 0.0, 0.0], [0.0; 3]);
+/// let found = time_of_impact(&cube, &rests, &cube, &comes, 1.0, None, Finder::Guaranteed)?;
+/// assert_eq!(found.outcome, Outcome::At);
+/// assert!((found.time - 0.5).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+pub fn time_of_impact(
+    a: &ConvexPolyhedron,
+    motion_a: &dyn Moving,
+    b: &ConvexPolyhedron,
+    motion_b: &dyn Moving,
+    t_max: f64,
+    eps: Option<f64>,
+    finder: Finder,
+) -> Result<Impact> {
+    let place = "time of impact";
+    if !(t_max > 0.0 && t_max.is_finite()) {
+        return Err(Error::value(place, "t_max", "positive and finite", t_max));
+    }
+    if let Some(eps) = eps.filter(|eps| !(*eps > 0.0 && eps.is_finite())) {
+        return Err(Error::value(place, "eps", "positive and finite", eps));
+    }
+    let eps = eps.unwrap_or(IMPACT_GAP * (a.radius() + b.radius()));
+    let mut cache = PairCache::new();
+    if finder == Finder::Guaranteed {
+        let (found, mut closest) =
+            guaranteed::Search::new((a, motion_a), (b, motion_b), &mut cache).run(0.0, t_max, eps)?;
+        if found.outcome == Outcome::Clear || found.outcome == Outcome::Grazing {
+            closest = between(a, motion_a, b, motion_b, found.time, &mut cache)?;
+        }
+        let Found { outcome, time, iterations, queries } = found;
+        return Ok(Impact { outcome, time, iterations, queries, closest });
+    }
+
+    // the first pose that cannot be queried is remembered: the finders see numbers only
+    let mut refused = None;
+    let mut gap = |t: f64| match between(a, motion_a, b, motion_b, t, &mut cache) {
+        Ok(closest) => closest.signed_distance,
+        Err(error) => {
+            refused.get_or_insert(error);
+            f64::NAN
+        }
     };
-    let mut iterations = 0;
-    let outcome = search(&mut gap, h, eps, finder, &mut iterations);
-    Impact { outcome, iterations, queries }
+    let next = if finder == Finder::Bisection { bisection::next } else { secant::next };
+    let Found { outcome, time, iterations, queries } = ends::find(&mut gap, t_max, eps, next);
+    if let Some(error) = refused {
+        return Err(error);
+    }
+    let closest = between(a, motion_a, b, motion_b, time, &mut cache)?;
+    Ok(Impact { outcome, time, iterations, queries, closest })
 }
 
-fn search(gap: &mut impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Finder, iterations: &mut u32) -> Outcome {
-    // the state of affairs at both ends
-    let (mut a, mut gap_a) = (0.0, gap(0.0));
-    let (mut b, mut gap_b) = (h, gap(h));
-    if gap_a < -eps {
-        return Outcome::Overlap(-gap_a);
-    }
-    if gap_b > eps {
-        return Outcome::Clear;
-    }
-
-    // a body that has just bounced starts within ε: the search begins where it has left
-    if gap_a <= eps {
-        a = h / SHORTEST_STAY;
-        gap_a = gap(a);
-        while gap_a <= eps && a < h {
-            a *= 2.0;
-            gap_a = gap(a);
-        }
-        if gap_a <= eps {
-            return if gap_b >= 0.0 { Outcome::Clear } else { Outcome::AlreadyTouching };
-        }
-    }
-    if gap_b >= 0.0 {
-        return Outcome::At(b);
-    }
-
-    // the root stays in [a, b]; the secant aims at the middle of what is accepted
-    for round in 0..ROUNDS {
-        *iterations = round + 1;
-        let halve = finder == Finder::Bisection || round % 2 == 1;
-        let t = if halve { 0.5 * (a + b) } else { a + (gap_a - 0.5 * eps) * (b - a) / (gap_a - gap_b) };
-        if t <= a || t >= b {
-            break;
-        }
-        let gap_t = gap(t);
-        if (0.0..=eps).contains(&gap_t) {
-            return Outcome::At(t);
-        }
-        if gap_t > 0.0 {
-            (a, gap_a) = (t, gap_t);
-        } else {
-            (b, gap_b) = (t, gap_t);
-        }
-    }
-    Outcome::Stalled(a)
+/// The closest features at `t` [s].
+fn between(
+    a: &ConvexPolyhedron,
+    motion_a: &dyn Moving,
+    b: &ConvexPolyhedron,
+    motion_b: &dyn Moving,
+    t: f64,
+    cache: &mut PairCache,
+) -> Result<ClosestFeatures> {
+    closest_features(a, &motion_a.at(t).pose, b, &motion_b.at(t).pose, Some(cache), Accuracy::Exact)
 }
 
-/// A bounce is looked for from this part of a step on, doubling [-]: a body that leaves ε and is back
-/// within the same doubling counts as touching.
-const SHORTEST_STAY: f64 = (1_u64 << 40) as f64;
-/// Rounds of a finder [-]: bisection from 1 to the smallest subnormal needs 1074, from a step to its
-/// last bit 53, and the secant halves in every second round.
-const ROUNDS: u32 = 128;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const EPS: f64 = 1e-12;
-
-    #[test]
-    fn a_falling_point_is_found_by_both_finders_and_never_below_the_plane() {
-        // gap = 1 − t − 5 t²: root t = (√21 − 1)/10; the time may be early by ε/speed
-        let root = (21f64.sqrt() - 1.0) / 10.0;
-        for &finder in Finder::ALL {
-            let gap = |t: f64| 1.0 - t - 5.0 * t * t;
-            let Impact { outcome: Outcome::At(t), .. } = find_impact(gap, 1.0, EPS, finder) else {
-                panic!("{finder:?} found nothing")
-            };
-            assert!((0.0..=EPS).contains(&gap(t)));
-            assert!((t - root).abs() <= EPS);
-        }
-    }
-
-    #[test]
-    fn the_secant_is_the_faster_one() {
-        let gap = |t: f64| 1.0 - t - 5.0 * t * t;
-        let [bisection, secant] = [Finder::Bisection, Finder::Secant].map(|f| find_impact(gap, 1.0, EPS, f).iterations);
-        // bisection gains a digit in 3.3 rounds: 1e-12 of 1 takes about 40
-        assert!((36..=44).contains(&bisection), "{bisection}");
-        assert!(secant < bisection / 2, "{secant}");
-    }
-
-    #[test]
-    fn every_way_to_end_has_its_name() {
-        let end = |gap: fn(f64) -> f64| find_impact(gap, 1.0, EPS, Finder::Secant).outcome;
-        assert_eq!(end(|_| 1.0), Outcome::Clear);
-        assert_eq!(end(|t| t - 0.5), Outcome::Overlap(0.5));
-        assert_eq!(end(|t| -t), Outcome::AlreadyTouching);
-        assert_eq!(end(|t| 1.0 - t), Outcome::At(1.0));
-        // a jump over the band leaves no gap to accept
-        let Outcome::Stalled(t) = end(|t| if t < 0.3 { 1.0 } else { -1.0 }) else { panic!("a jump was accepted") };
-        assert!((t - 0.3).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_body_that_has_just_bounced_is_found_again_where_it_lands() {
-        // up from the plane with 1, down with 5 t²: back at t = 1/5
-        let Outcome::At(t) = find_impact(|t| t - 5.0 * t * t, 0.3, EPS, Finder::Secant).outcome else {
-            panic!("the second contact is missed")
-        };
-        assert!((t - 0.2).abs() <= EPS);
-    }
+/// Finds the impact in 0..=`h` [s] as the lecture does, given the gap [m] as a function of time from the
+/// start: by the secant, or by bisection where that is asked for.
+pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Finder) -> Found {
+    let next = if finder == Finder::Bisection { bisection::next } else { secant::next };
+    ends::find(&mut gap, h, eps, next)
 }

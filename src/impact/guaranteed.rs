@@ -1,0 +1,429 @@
+//! The guaranteed search: conservative advancement with a bound of second order.
+//!
+//! Along any unit direction n(t) the separation of the bodies is a lower bound of their signed distance,
+//!
+//! ```text
+//! s(t) = min n·b − max n·a = n·Δ(t) − h_A(n) − h_B(−n)         Δ = c_B − c_A,  h the support from c
+//! ```
+//!
+//! so from the closest features at t, whose normal n makes `s` the signed distance itself, the search looks
+//! ahead: let n turn with a constant angular velocity Ω, and let every pair of vertices go on along its
+//! tangent. The least of the tangents is concave in time, so it lies above the chord between its values
+//! at 0 and h, and a bound K of all second derivatives gives
+//!
+//! ```text
+//! s(t + τ) ≥ (1 − τ/h) s(t) + (τ/h) L(h) − ½ K τ²        0 ≤ τ ≤ h
+//! L(h)     = (n + h Ω×n)·Δ + h n·Δ′ − h_A(n + h n×(ω_A − Ω)) − h_B(−n − h n×(ω_B − Ω))
+//! ```
+//!
+//! L(h) costs two supports. The time up to which the right side stays above ½ ε is proved free, and the
+//! search goes there. Close to contact the chord is the secant through the gap now and the gap to be, and
+//! what it leaves is of second order: digits double in every round. Ω decides how good the tangent is:
+//!
+//! | closest features | Ω | because |
+//! |---|---|---|
+//! | a face | ω of its body | the face's plane separates, and turns with the body |
+//! | edge, edge | such that n stays perpendicular to both | so does the common normal |
+//! | edge, vertex | such that n stays perpendicular to the edge | |
+//! | any | 0 | far away, where n hardly matters |
+//!
+//! For Ω = 0 a body's part of the bound may also be the plain one of Mirtich (1996), `τ |ω × n| r`, or
+//! for fast spins the ball of its radius, whatever is least.
+//!
+//! **What is proved.** `s` is proved positive on the whole way, so nothing is missed and nothing is late,
+//! up to the rounding of poses and supports, which `ε` is kept above. Rotation is bounded by `r`, the
+//! largest distance from the moving point.
+
+use super::motion::{Instant, MotionBounds, Moving};
+use super::{Found, Outcome};
+use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, closest_features};
+use crate::error::Result;
+use crate::math::{Matrix3, Vector3, quaternion};
+use crate::shape::convex_polyhedron::ConvexPolyhedron;
+
+/// A body and its motion.
+struct Side<'a> {
+    shape: &'a ConvexPolyhedron,
+    motion: &'a dyn Moving,
+    /// From the moving point to the shape's centre, shape axes [m].
+    offset: Vector3,
+    /// Largest distance of the body from the moving point [m].
+    radius: f64,
+    /// Where the last climb ended.
+    vertex: usize,
+}
+
+/// A body at an instant.
+struct Placed {
+    instant: Instant,
+    rotation: Matrix3,
+}
+
+impl<'a> Side<'a> {
+    fn new(shape: &'a ConvexPolyhedron, motion: &'a dyn Moving) -> Self {
+        let offset = Vector3::from(shape.center()) - motion.center();
+        Self { shape, motion, offset, radius: offset.norm() + shape.radius(), vertex: 0 }
+    }
+
+    fn at(&self, t: f64) -> Placed {
+        let instant = self.motion.at(t);
+        Placed { rotation: quaternion::to_matrix(&instant.pose.orientation), instant }
+    }
+
+    /// The support `max d·(a − c)` of the body, from the moving point.
+    fn height(&mut self, placed: &Placed, d: &Vector3) -> f64 {
+        let d = placed.rotation.tr_mul(d);
+        let vertices = self.shape.vertices_about_center();
+        let along = |v: &[f64; 3]| v[0] * d.x + v[1] * d.y + v[2] * d.z;
+        let top = if vertices.len() <= SCAN {
+            vertices.iter().map(along).fold(f64::NEG_INFINITY, f64::max)
+        } else {
+            self.vertex = self.shape.climb(self.vertex, &d.into());
+            along(&vertices[self.vertex])
+        };
+        d.dot(&self.offset) + top
+    }
+
+    /// Direction of an edge, world axes.
+    fn edge(&self, placed: &Placed, edge: u32) -> Vector3 {
+        placed.rotation * Vector3::from(self.shape.edges()[edge as usize].direction)
+    }
+}
+
+/// The pair at an instant, and what the bounds are worked out from.
+struct Look {
+    time: f64,
+    closest: ClosestFeatures,
+    a: Placed,
+    b: Placed,
+    /// From the moving point of A to that of B [m], and its rate [m/s].
+    between: Vector3,
+    approach: Vector3,
+    /// Supports of both along the normal [m].
+    heights: [f64; 2],
+    /// Rounding of a separation [m].
+    error: f64,
+    /// Largest speed of a point of one body as seen from the other [m/s].
+    speed: f64,
+}
+
+/// What the search is about.
+#[derive(Clone, Copy)]
+enum Phase {
+    /// The gap was above ε: it must not fall below ½ ε unseen.
+    Free,
+    /// The gap is within ε from the start and must not fall below this [m].
+    Leaving(f64),
+    /// The gap came within ε at this time [s] with next to no speed: does it open again?
+    Grazing(f64),
+}
+
+/// A search for the first impact of two bodies.
+pub(super) struct Search<'a> {
+    a: Side<'a>,
+    b: Side<'a>,
+    cache: &'a mut PairCache,
+    /// How far the last bound looked ahead with success [s].
+    ahead: f64,
+    queries: u32,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        a: (&'a ConvexPolyhedron, &'a dyn Moving),
+        b: (&'a ConvexPolyhedron, &'a dyn Moving),
+        cache: &'a mut PairCache,
+    ) -> Self {
+        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, ahead: f64::INFINITY, queries: 0 }
+    }
+
+    /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
+    pub(super) fn run(&mut self, from: f64, to: f64, eps: f64) -> Result<(Found, ClosestFeatures)> {
+        let mut look = self.look(from)?;
+        let start = [look.a.instant.center.norm(), look.b.instant.center.norm()];
+        let mut eps_here = eps.max(self.rounding(&look, start, from));
+        let gap = look.closest.signed_distance;
+        let mut phase = if gap > eps_here {
+            Phase::Free
+        } else if gap < -self.rounding(&look, start, from) {
+            return Ok((self.found(Outcome::Overlap, from, 0), look.closest));
+        } else {
+            Phase::Leaving(if look.closest.lower > 0.0 { 0.5 * look.closest.lower } else { gap - eps_here })
+        };
+        let mut stays = 0;
+
+        for round in 0..ROUNDS {
+            let gap = look.closest.signed_distance;
+            let t = look.time;
+            match phase {
+                Phase::Free if gap <= eps_here => {
+                    if look.closest.lower <= 0.0 {
+                        return Ok((self.found(Outcome::Stalled, t, round), look.closest));
+                    }
+                    // what comes with speed is an impact; what hardly moves may be about to leave
+                    let ahead = self.advance(&look, -eps_here, to - t);
+                    if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
+                        return Ok((self.found(Outcome::At, t, round), look.closest));
+                    }
+                    (phase, stays) = (Phase::Grazing(t), 0);
+                }
+                Phase::Leaving(_) if gap > eps_here => phase = Phase::Free,
+                Phase::Grazing(since) if gap > eps_here => {
+                    return Ok((self.found(Outcome::Grazing, since, round), look.closest));
+                }
+                _ => {}
+            }
+
+            // as far as it is proved
+            let level = match phase {
+                Phase::Free => 0.5 * eps_here,
+                Phase::Leaving(floor) => floor,
+                Phase::Grazing(_) => -eps_here,
+            };
+            let step = self.advance(&look, level, to - t);
+            if !matches!(phase, Phase::Free) {
+                stays += 1;
+            }
+            match phase {
+                Phase::Leaving(_) if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
+                    let outcome =
+                        if t > from && look.closest.lower > 0.0 { Outcome::At } else { Outcome::AlreadyTouching };
+                    return Ok((self.found(outcome, t, round), look.closest));
+                }
+                Phase::Grazing(since)
+                    if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
+                {
+                    let there = self.look(since)?;
+                    return Ok((self.found(Outcome::At, since, round), there.closest));
+                }
+                _ => {}
+            }
+            if step >= to - t {
+                let outcome = if let Phase::Grazing(since) = phase {
+                    return Ok((self.found(Outcome::Grazing, since, round), look.closest));
+                } else {
+                    Outcome::Clear
+                };
+                return Ok((self.found(outcome, to, round), look.closest));
+            }
+            let next = t + step;
+            if next <= t {
+                return Ok((self.found(Outcome::Stalled, t, round), look.closest));
+            }
+            look = self.look(next)?;
+            eps_here = eps.max(self.rounding(&look, start, from));
+        }
+        Ok((self.found(Outcome::Stalled, look.time, ROUNDS), look.closest))
+    }
+
+    fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
+        Found { outcome, time, iterations, queries: self.queries }
+    }
+
+    /// The closest features at `t`, and what the bounds need.
+    fn look(&mut self, t: f64) -> Result<Look> {
+        let (a, b) = (self.a.at(t), self.b.at(t));
+        let (shape_a, shape_b) = (self.a.shape, self.b.shape);
+        let closest =
+            closest_features(shape_a, &a.instant.pose, shape_b, &b.instant.pose, Some(self.cache), Accuracy::Exact)?;
+        self.queries += 1;
+        let n = closest.normal;
+        let heights = [self.a.height(&a, &n), self.b.height(&b, &-n)];
+        let between = b.instant.center - a.instant.center;
+        let approach = b.instant.velocity - a.instant.velocity;
+        let speed = approach.norm()
+            + a.instant.angular_velocity.norm() * self.a.radius
+            + b.instant.angular_velocity.norm() * self.b.radius;
+        let error = SUPPORT_UNITS * f64::EPSILON * (between.norm() + self.a.radius + self.b.radius);
+        Ok(Look { time: t, closest, a, b, between, approach, heights, error, speed })
+    }
+
+    /// Gap below which rounding decides at the time of a look [m].
+    fn rounding(&self, look: &Look, start: [f64; 2], from: f64) -> f64 {
+        let (a, b) = (&look.a.instant, &look.b.instant);
+        let turned = (look.time - from)
+            * (a.angular_velocity.norm() * self.a.radius + b.angular_velocity.norm() * self.b.radius);
+        let near = look.between.norm() + self.a.radius + self.b.radius;
+        let far = a.center.norm() + b.center.norm() + start[0] + start[1];
+        f64::EPSILON * (NEAR_UNITS * near + FAR_UNITS * (far + turned))
+    }
+
+    /// Whether a proved step is longer than what comes with speed would take for this way [m].
+    fn is_still(look: &Look, step: f64, left: f64, way: f64) -> bool {
+        step >= left || step * look.speed >= way
+    }
+
+    /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
+    /// above `level` [m].
+    fn advance(&mut self, look: &Look, level: f64, left: f64) -> f64 {
+        let mut best = 0.0_f64;
+        for turning in self.turnings(look).into_iter().flatten() {
+            let mut h = self.ahead.min(left);
+            let mut grows = false;
+            for _ in 0..TRIALS {
+                let proved = self.proved(look, &turning, level, h);
+                best = best.max(proved);
+                if proved >= h {
+                    if h >= left {
+                        return left;
+                    }
+                    (h, grows) = ((4.0 * h).min(left), true);
+                } else if proved > 0.5 * h || grows {
+                    break;
+                } else {
+                    h = (2.0 * proved).max(h / 32.0);
+                }
+            }
+        }
+        self.ahead = 2.0 * best;
+        best
+    }
+
+    /// The angular velocities that the direction may turn with.
+    fn turnings(&self, look: &Look) -> [Option<Vector3>; 2] {
+        let n = &look.closest.normal;
+        let (w_a, w_b) = (look.a.instant.angular_velocity, look.b.instant.angular_velocity);
+        let zero = Vector3::zeros();
+
+        // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
+        let along = |edge: &Vector3, w: &Vector3| w.cross(n).dot(edge);
+        let natural = match (look.closest.feature_a, look.closest.feature_b) {
+            (Feature::Face(_), _) => w_a,
+            (_, Feature::Face(_)) => w_b,
+            (Feature::Edge(i), Feature::Edge(j)) => {
+                let (e, f) = (self.a.edge(&look.a, i), self.b.edge(&look.b, j));
+                let (p, q) = (along(&e, &w_a), along(&f, &w_b));
+                let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
+                n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
+            }
+            (Feature::Edge(i), Feature::Vertex(_)) => {
+                let e = self.a.edge(&look.a, i);
+                n.cross(&(along(&e, &w_a) * e))
+            }
+            (Feature::Vertex(_), Feature::Edge(j)) => {
+                let f = self.b.edge(&look.b, j);
+                n.cross(&(along(&f, &w_b) * f))
+            }
+            (Feature::Vertex(_), Feature::Vertex(_)) => zero,
+        };
+        if natural == zero || !natural.norm_squared().is_finite() {
+            return [Some(zero), None];
+        }
+        [Some(natural), Some(zero)]
+    }
+
+    /// How long from a look on, at most `h` [s], the bound with this Ω stays above `level` [m].
+    fn proved(&mut self, look: &Look, turning: &Vector3, level: f64, h: f64) -> f64 {
+        let n = &look.closest.normal;
+        let (t, to) = (look.time, look.time + h);
+        let [bounds_a, bounds_b] = [self.a.motion.bounds(t, to), self.b.motion.bounds(t, to)];
+
+        // the moving points
+        let acceleration = bounds_b.acceleration - bounds_a.acceleration;
+        let (size, deviation) = (acceleration.norm(), bounds_a.deviation + bounds_b.deviation);
+        let rate = turning.cross(n);
+        let (turning_size, rate_size) = (turning.norm(), rate.norm());
+        let fastest = look.approach.norm() + h * (size + deviation);
+        let farthest = look.between.norm() + h * fastest;
+        let mut start = n.dot(&look.between);
+        let mut end = start + h * (rate.dot(&look.between) + n.dot(&look.approach));
+        let mut bend =
+            rate_size * (turning_size * farthest + 2.0 * fastest + h * size) + deviation - n.dot(&acceleration);
+
+        // each body's part
+        let resting = turning_size == 0.0;
+        for (side, placed, bounds, height, sign) in [
+            (&mut self.a, &look.a, &bounds_a, look.heights[0], 1.0),
+            (&mut self.b, &look.b, &bounds_b, look.heights[1], -1.0),
+        ] {
+            let part = side.part(placed, bounds, &(sign * n), height, turning, resting, h);
+            start -= part.start;
+            end -= part.end;
+            bend += part.bend;
+        }
+        crossing(start - look.error - level, (end - start) / h, bend).min(h)
+    }
+}
+
+/// A body's part of the bound: its support is at most the chord from `start` to `end` plus `½ bend τ²`.
+struct Part {
+    start: f64,
+    end: f64,
+    bend: f64,
+}
+
+impl Side<'_> {
+    /// The part along `d` = ±n, which turns with Ω, over `h` [s].
+    #[expect(clippy::too_many_arguments, reason = "the symbols of one formula")]
+    fn part(
+        &mut self,
+        placed: &Placed,
+        bounds: &MotionBounds,
+        d: &Vector3,
+        height: f64,
+        turning: &Vector3,
+        resting: bool,
+        h: f64,
+    ) -> Part {
+        let w = &placed.instant.angular_velocity;
+        let r = self.radius;
+
+        // in axes that turn with Ω: a′ = ρ × a and a″ = ρ × (ρ × a) + ρ′ × a with ρ = ω − Ω
+        let relative = w - turning;
+        let across = relative.cross(d).norm();
+        let change = bounds.angular_acceleration * (1.0 + turning.norm() * h) + turning.cross(w).norm();
+        let drift = change * h;
+        let bend = r * ((across + drift) * (relative.norm() + drift) + change);
+
+        // without Ω: the plain bound, or all of the ball
+        let plain = if resting {
+            let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
+            height + h * fastest * r
+        } else {
+            f64::INFINITY
+        };
+        if resting && r <= plain && r <= height + 0.5 * bend * h * h {
+            return Part { start: r, end: r, bend: 0.0 };
+        }
+        let end = if across == 0.0 { height } else { self.height(placed, &(d + h * d.cross(&relative))) };
+        if plain < end + 0.5 * bend * h * h {
+            return Part { start: height, end: plain, bend: 0.0 };
+        }
+        Part { start: height, end, bend }
+    }
+}
+
+/// The first root of `c + b τ − ½ k τ²`, for a positive start c; without one, infinity.
+fn crossing(c: f64, b: f64, k: f64) -> f64 {
+    if c <= 0.0 || c.is_nan() {
+        return 0.0;
+    }
+    let discriminant = b * b + 2.0 * k * c;
+    if discriminant < 0.0 {
+        return f64::INFINITY;
+    }
+    let below = discriminant.sqrt() - b;
+    if below > 0.0 { 2.0 * c / below } else { f64::INFINITY }
+}
+
+/// Up to this many vertices all are looked at, which costs no more than climbing.
+const SCAN: usize = 16;
+/// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
+const ROUNDS: u32 = 100_000;
+/// How often a bound is tried with another look ahead [-].
+const TRIALS: u32 = 8;
+/// Rounding of a separation from supports, in ε of the pair's size [-]: 29/2 of the radii and 10/2 of the
+/// distance as in the closest features, once for each end of the chord.
+const SUPPORT_UNITS: f64 = 32.0;
+/// ε of the search is at least so many rounding units of the pair's size [-]: half of it must stay above
+/// the error of a separation and the interval of an answer.
+const NEAR_UNITS: f64 = 144.0;
+/// The same of coordinates and of the way that turning takes [-]: a sum of positions, a product of rate
+/// and time.
+const FAR_UNITS: f64 = 8.0;
+/// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
+const LEAST_STAY: f64 = 100.0;
+/// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].
+const SLOW: f64 = 1.0e4;
+/// Rounds within ε after which a pair is said to stay there [-].
+const STAYS: u32 = 256;
