@@ -105,6 +105,8 @@ struct Look {
     error: f64,
     /// Largest speed of a point of one body as seen from the other [m/s].
     speed: f64,
+    /// How fast the closest points approach along the normal [m/s].
+    closing: f64,
 }
 
 /// What the search is about.
@@ -123,8 +125,6 @@ pub(super) struct Search<'a> {
     a: Side<'a>,
     b: Side<'a>,
     cache: &'a mut PairCache,
-    /// How far the last bound looked ahead with success [s].
-    ahead: f64,
     queries: u32,
 }
 
@@ -134,7 +134,7 @@ impl<'a> Search<'a> {
         b: (&'a ConvexPolyhedron, &'a dyn Moving),
         cache: &'a mut PairCache,
     ) -> Self {
-        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, ahead: f64::INFINITY, queries: 0 }
+        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0 }
     }
 
     /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
@@ -234,8 +234,9 @@ impl<'a> Search<'a> {
         let speed = approach.norm()
             + a.instant.angular_velocity.norm() * self.a.radius
             + b.instant.angular_velocity.norm() * self.b.radius;
+        let closing = n.dot(&(a.instant.velocity_at(&closest.point_a) - b.instant.velocity_at(&closest.point_b)));
         let error = SUPPORT_UNITS * f64::EPSILON * (between.norm() + self.a.radius + self.b.radius);
-        Ok(Look { time: t, closest, a, b, between, approach, heights, error, speed })
+        Ok(Look { time: t, closest, a, b, between, approach, heights, error, speed, closing })
     }
 
     /// Gap below which rounding decides at the time of a look [m].
@@ -256,26 +257,25 @@ impl<'a> Search<'a> {
     /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
     /// above `level` [m].
     fn advance(&mut self, look: &Look, level: f64, left: f64) -> f64 {
+        // the proposal: where the line through the gap meets the level; no bound reaches beyond it
+        let proposed = if look.closing > 0.0 { (look.closest.signed_distance - level) / look.closing } else { left };
+        let proposed = if proposed < left { proposed.max(0.0) } else { left };
+
         let mut best = 0.0_f64;
         for turning in self.turnings(look).into_iter().flatten() {
-            let mut h = self.ahead.min(left);
-            let mut grows = false;
+            let mut h = proposed;
             for _ in 0..TRIALS {
                 let proved = self.proved(look, &turning, level, h);
                 best = best.max(proved);
-                if proved >= h {
-                    if h >= left {
-                        return left;
-                    }
-                    (h, grows) = ((4.0 * h).min(left), true);
-                } else if proved > 0.5 * h || grows {
+                if proved >= NEARLY * h {
                     break;
-                } else {
-                    h = (2.0 * proved).max(h / 32.0);
                 }
+                h = (2.0 * proved).max(h / 16.0);
+            }
+            if best >= NEARLY * proposed {
+                break;
             }
         }
-        self.ahead = 2.0 * best;
         best
     }
 
@@ -411,7 +411,9 @@ const SCAN: usize = 16;
 /// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
 const ROUNDS: u32 = 100_000;
 /// How often a bound is tried with another look ahead [-].
-const TRIALS: u32 = 8;
+const TRIALS: u32 = 4;
+/// A bound that proves so much of what it looked ahead is good enough [-].
+const NEARLY: f64 = 0.5;
 /// Rounding of a separation from supports, in ε of the pair's size [-]: 29/2 of the radii and 10/2 of the
 /// distance as in the closest features, once for each end of the chord.
 const SUPPORT_UNITS: f64 = 32.0;

@@ -15,6 +15,13 @@ pub struct Instant {
     pub angular_velocity: Vector3,
 }
 
+impl Instant {
+    /// Velocity of the body at a world point, `v + ω × (p − c)` [m/s].
+    pub fn velocity_at(&self, p: &Vector3) -> Vector3 {
+        self.velocity + self.angular_velocity.cross(&(p - self.center))
+    }
+}
+
 /// Bounds of a motion over an interval; they hold at every instant of it.
 ///
 /// ```text
