@@ -52,7 +52,10 @@ fn quantile(times: &mut [f64], part: f64) -> f64 {
 }
 
 fn main() {
-    println!("{:<15} {:>7} {:>7} | {:>8} {:>8} | {:>9} {:>9}  µs", "family", "hits", "rounds", "median", "p99", "parry", "p99");
+    println!(
+        "{:<15} {:>7} {:>7} | {:>8} {:>8} | {:>9} {:>9}  µs",
+        "family", "hits", "rounds", "median", "p99", "parry", "p99"
+    );
     for (name, family) in FAMILIES {
         let mut random = Random::new(name);
         let (mut times, mut parry_times, mut rounds, mut hits) = (Vec::new(), Vec::new(), 0, 0);

@@ -28,7 +28,8 @@
 //! | any | 0 | far away, where n hardly matters |
 //!
 //! For Ω = 0 a body's part of the bound may also be the plain one of Mirtich (1996), `τ |ω × n| r`, or
-//! for fast spins the ball of its radius, whatever is least.
+//! for fast spins the support of all that it sweeps: of a steady spin the solid of revolution, else the
+//! ball of its radius. Whatever is least counts.
 //!
 //! **What is proved.** `s` is proved positive on the whole way, so nothing is missed and nothing is late,
 //! up to the rounding of poses and supports, which `ε` is kept above. Rotation is bounded by `r`, the
@@ -51,6 +52,35 @@ struct Side<'a> {
     radius: f64,
     /// Where the last climb ended.
     vertex: usize,
+    /// What a steady spin sweeps.
+    swept: Option<Swept>,
+}
+
+/// The solid of revolution that a body fills when it spins: for each vertex how far along the axis and
+/// how far from it [m].
+struct Swept {
+    spin: Vector3,
+    axis: Vector3,
+    profile: Vec<[f64; 2]>,
+}
+
+impl Swept {
+    fn new(side: &Side<'_>, placed: &Placed) -> Self {
+        let spin = placed.instant.angular_velocity;
+        let axis = spin / spin.norm();
+        let axis_body = placed.rotation.tr_mul(&axis);
+        let along_and_from = |v: &[f64; 3]| {
+            let v = Vector3::from(*v) + side.offset;
+            [v.dot(&axis_body), v.cross(&axis_body).norm()]
+        };
+        Self { spin, axis, profile: side.shape.vertices_about_center().iter().map(along_and_from).collect() }
+    }
+
+    /// Its support along `d` [m].
+    fn height(&self, d: &Vector3) -> f64 {
+        let (along, from) = (d.dot(&self.axis), d.cross(&self.axis).norm());
+        self.profile.iter().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
+    }
 }
 
 /// A body at an instant.
@@ -62,7 +92,7 @@ struct Placed {
 impl<'a> Side<'a> {
     fn new(shape: &'a ConvexPolyhedron, motion: &'a dyn Moving) -> Self {
         let offset = Vector3::from(shape.center()) - motion.center();
-        Self { shape, motion, offset, radius: offset.norm() + shape.radius(), vertex: 0 }
+        Self { shape, motion, offset, radius: offset.norm() + shape.radius(), vertex: 0, swept: None }
     }
 
     fn at(&self, t: f64) -> Placed {
@@ -375,21 +405,38 @@ impl Side<'_> {
         let drift = change * h;
         let bend = r * ((across + drift) * (relative.norm() + drift) + change);
 
-        // without Ω: the plain bound, or all of the ball
-        let plain = if resting {
+        // without Ω: the plain bound, or all that is swept
+        let mut plain = f64::INFINITY;
+        if resting {
             let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
-            height + h * fastest * r
-        } else {
-            f64::INFINITY
-        };
-        if resting && r <= plain && r <= height + 0.5 * bend * h * h {
-            return Part { start: r, end: r, bend: 0.0 };
+            plain = height + h * fastest * r;
+            let all = self.swept(placed, bounds, d, h);
+            if all <= plain && all <= height + 0.5 * bend * h * h {
+                return Part { start: all, end: all, bend: 0.0 };
+            }
         }
         let end = if across == 0.0 { height } else { self.height(placed, &(d + h * d.cross(&relative))) };
         if plain < end + 0.5 * bend * h * h {
             return Part { start: height, end: plain, bend: 0.0 };
         }
         Part { start: height, end, bend }
+    }
+}
+
+impl Side<'_> {
+    /// Support along `d` of all that the body sweeps in the time `h` [s], however it turns.
+    fn swept(&mut self, placed: &Placed, bounds: &MotionBounds, d: &Vector3, h: f64) -> f64 {
+        let w = &placed.instant.angular_velocity;
+        if bounds.angular_acceleration > 0.0 || h * bounds.angular_speed < SWEEPS {
+            return self.radius;
+        }
+        let swept = match self.swept.take().filter(|swept| swept.spin == *w) {
+            Some(swept) => swept,
+            None => Swept::new(self, placed),
+        };
+        let height = swept.height(d);
+        self.swept = Some(swept);
+        height
     }
 }
 
@@ -423,6 +470,8 @@ const NEAR_UNITS: f64 = 144.0;
 /// The same of coordinates and of the way that turning takes [-]: a sum of positions, a product of rate
 /// and time.
 const FAR_UNITS: f64 = 8.0;
+/// Angle from which on a spin is taken for all that it sweeps [rad].
+const SWEEPS: f64 = 1.0;
 /// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
 const LEAST_STAY: f64 = 100.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].

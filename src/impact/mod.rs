@@ -194,3 +194,121 @@ pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Fi
     let next = if finder == Finder::Bisection { bisection::next } else { secant::next };
     ends::find(&mut gap, h, eps, next)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Pose, Vector3};
+
+    fn cuboid(h: [f64; 3]) -> ConvexPolyhedron {
+        let corner = |k: usize| std::array::from_fn(|i| if (k >> i) & 1 == 0 { -h[i] } else { h[i] });
+        ConvexPolyhedron::from_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> Pose {
+        Pose::new([x, y, z], [1.0, 0.0, 0.0, 0.0])
+    }
+
+    fn guaranteed(a: &ConvexPolyhedron, m: &Motion, b: &ConvexPolyhedron, n: &Motion, to: f64) -> Impact {
+        time_of_impact(a, m, b, n, to, None, Finder::Guaranteed).unwrap()
+    }
+
+    #[test]
+    fn a_bullet_meets_a_thin_plate_at_any_speed() {
+        // faces at −1e-6 and from 3 − 0.01 on: t = (2.99 − 1e-6)/v, early by ε/v at most
+        let (plate, bullet) = (cuboid([0.5, 0.5, 1e-6]), cuboid([0.01; 3]));
+        for speed in [1e3, 1e4, 1e5] {
+            for &finder in Finder::ALL {
+                let flies = Motion::new(at(0.1, 0.2, 3.0), [0.0, 0.0, -speed], [0.0; 3]);
+                let rests = Motion::resting(Pose::identity());
+                let found = time_of_impact(&plate, &rests, &bullet, &flies, 0.1, None, finder).unwrap();
+                if finder == Finder::Guaranteed {
+                    let truth = (2.99 - 1e-6) / speed;
+                    assert_eq!(found.outcome, Outcome::At);
+                    // ε of both radii, 0.73 m, and the rounding of 3 m to a few ε
+                    assert!((found.time - truth).abs() * speed < 2e-12, "{:e}", (found.time - truth) * speed);
+                } else {
+                    // the lecture's finders look at the ends, and there is nothing to be seen
+                    assert_eq!(found.outcome, Outcome::Clear, "{finder:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rod_spinning_at_1000_rad_per_second_meets_a_wall_with_its_tip() {
+        // gap = 1.5 − v t − |cos ω t|; the first root lies in the first half turn whose end of rod is out far enough
+        let (v, w) = (0.8, 1000.0);
+        let gap = |t: f64| 1.5 - v * t - libm::cos(w * t).abs();
+        let half_turn = std::f64::consts::PI / w;
+        let near = (1..).map(|k| f64::from(k) * half_turn).find(|t| gap(*t) < 0.0).unwrap();
+        let (mut a, mut b) = (near - 0.5 * half_turn, near);
+        for _ in 0..100 {
+            let middle = 0.5 * (a + b);
+            *(if gap(middle) > 0.0 { &mut a } else { &mut b }) = middle;
+        }
+
+        let rod = ConvexPolyhedron::from_points(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]).unwrap();
+        let spins = Motion::new(at(-1.5, 0.0, 0.0), [v, 0.0, 0.0], [0.0, 0.0, w]);
+        let wall = Motion::resting(at(1.0, 0.0, 0.0));
+        let found = guaranteed(&rod, &spins, &cuboid([1.0, 5.0, 5.0]), &wall, 2.0);
+        assert_eq!(found.outcome, Outcome::At);
+        // ε = 1e-12 · 8.1 m and the rounding of an angle of 625 rad, at an approach of some 70 m/s
+        assert!((found.time - a).abs() < 1e-12, "{:e}", found.time - a);
+        assert!(found.iterations < 2000, "{}", found.iterations);
+    }
+
+    #[test]
+    fn a_corner_that_passes_a_wall_hits_clears_or_grazes_by_its_distance() {
+        // a cube turns in place; its edge is at most √½ from the axis, at φ = π/4
+        let (cube, wall) = (cuboid([0.5; 3]), cuboid([1.0, 5.0, 5.0]));
+        let turns = Motion::new(at(0.0, 0.0, 0.0), [0.0; 3], [0.0, 0.0, 1.0]);
+        let reach = 0.5f64.sqrt();
+        let end = |distance: f64| {
+            let rests = Motion::resting(at(1.0 + reach + distance, 0.0, 0.0));
+            guaranteed(&cube, &turns, &wall, &rests, 1.2)
+        };
+        // ε is 1e-12 of both radii, 8.0e-12
+        assert_eq!(end(1e-10).outcome, Outcome::Clear);
+        let grazes = end(4e-12);
+        assert_eq!(grazes.outcome, Outcome::Grazing);
+        assert!(grazes.closest.lower > 0.0 && grazes.closest.signed_distance <= 8.1e-12);
+        let hits = end(-1e-6);
+        let truth = std::f64::consts::FRAC_PI_4 - libm::acos(1.0 - 1e-6 / reach);
+        assert_eq!(hits.outcome, Outcome::At);
+        // ε over the speed √½ sin(acos(1 − 1e-6/√½))
+        assert!((hits.time - truth).abs() < 1e-8, "{:e}", hits.time - truth);
+        assert!(hits.closest.lower > 0.0);
+    }
+
+    #[test]
+    fn what_starts_touching_is_told_from_what_leaves_and_what_overlaps() {
+        let cube = cuboid([0.5; 3]);
+        let rests = Motion::resting(Pose::identity());
+        let end = |gap: f64, velocity: [f64; 3], spin: [f64; 3]| {
+            let moves = Motion::new(at(0.0, 0.0, 1.0 + gap), velocity, spin);
+            guaranteed(&cube, &rests, &cube, &moves, 1.0).outcome
+        };
+        for gap in [0.0, 1e-13, 1e-12] {
+            assert_eq!(end(gap, [0.0, 0.0, 2.0], [0.1, 0.2, 0.3]), Outcome::Clear, "{gap:e}");
+            assert_eq!(end(gap, [0.0, 0.0, -2.0], [0.0; 3]), Outcome::AlreadyTouching, "{gap:e}");
+            // one edge leaves, the other comes
+            assert_eq!(end(gap, [0.0; 3], [1.0, 0.0, 0.0]), Outcome::AlreadyTouching, "{gap:e}");
+            // sliding: the gap stays
+            assert_eq!(end(gap, [0.3, 0.1, 0.0], [0.0; 3]), Outcome::Clear, "{gap:e}");
+        }
+        assert_eq!(end(-0.1, [0.0, 0.0, 2.0], [0.0; 3]), Outcome::Overlap);
+    }
+
+    #[test]
+    fn bad_input_is_refused_by_name() {
+        let (cube, rests) = (cuboid([0.5; 3]), Motion::resting(Pose::identity()));
+        let with = |t_max, eps| time_of_impact(&cube, &rests, &cube, &rests, t_max, eps, Finder::Guaranteed);
+        assert!(with(f64::NAN, None).unwrap_err().to_string().contains("t_max"));
+        assert!(with(0.0, None).unwrap_err().to_string().contains("t_max"));
+        assert!(with(1.0, Some(-1.0)).unwrap_err().to_string().contains("eps"));
+        let lost = Motion::new(Pose { position: Vector3::repeat(f64::NAN), ..Pose::identity() }, [0.0; 3], [0.0; 3]);
+        assert!(time_of_impact(&cube, &rests, &cube, &lost, 1.0, None, Finder::Secant).is_err());
+        assert!(time_of_impact(&cube, &rests, &cube, &lost, 1.0, None, Finder::Guaranteed).is_err());
+    }
+}
