@@ -55,3 +55,9 @@ pub const CERTIFICATE_SLACK: f64 = 6.0 * f64::EPSILON;
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
 /// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.
 pub const SEARCH_GAP: f64 = 2.0 * f64::EPSILON;
+
+/// How far a normal may be from that of a cap or a side for the answer to name the cap or the side, not
+/// the rim between them [rad]. A search for the closest point of a curved body leaves its normal right
+/// to about the square root of ε. Larger: tilted bodies are said to lie flat; distances do not depend
+/// on it.
+pub const FEATURE_ANGLE: f64 = 1.0e-7;

@@ -16,16 +16,12 @@
 //! from the origin, their solid angles are positive and sum to a whole number of spheres: it goes
 //! around the origin.
 
-use super::PairCache;
-use super::pair::{Heights, Ids, Pair};
+use super::cache::PairCache;
+use super::pair::{Difference, Ids};
 use super::search::Bounds;
 use super::simplex::{Closest, Simplex, triangle_normal};
 use super::vector::Vec3;
 use crate::math::double_double::Real;
-
-/// Points of the inner polytope [-]: bodies of 100 vertices need 10 to 60; beyond this the depth is
-/// given with the bounds that are proved.
-const POINTS: usize = 1024;
 
 #[derive(Debug, Clone, Copy)]
 struct Triangle<R> {
@@ -55,8 +51,8 @@ pub(super) type Core = ([Ids; PairCache::CAPACITY], usize);
 /// depth; the upper one holds where it is below the pair's error, for then the surface encloses the
 /// origin. The normal points from A to B, against the way out. Along with them the vertices to start
 /// the next query of the same pair from.
-pub(super) fn depth<R: Heights>(
-    pair: &Pair<'_, R>,
+pub(super) fn depth<R: Real>(
+    pair: &impl Difference<R>,
     start: &Simplex<R>,
     gap: f64,
     steps: &mut u32,
@@ -76,7 +72,7 @@ pub(super) fn depth<R: Heights>(
 /// The depth from the vertices of an earlier answer; none if the bodies are apart by now or the vertices
 /// do not span space.
 pub(super) fn depth_again(
-    pair: &Pair<'_, f64>,
+    pair: &impl Difference<f64>,
     core: &[Ids],
     gap: f64,
     steps: &mut u32,
@@ -86,7 +82,7 @@ pub(super) fn depth_again(
     let corners = pair.simplex(first);
     let p = &corners.points;
     let volume = triangle_normal(&p[0], &p[1], &p[2]).dot(&(p[3] - p[0])).abs();
-    if volume <= SPANNING * pair.size * pair.size * pair.size {
+    if volume <= SPANNING * pair.size() * pair.size() * pair.size() {
         return None;
     }
     let mut surface = Surface::tetrahedron(&corners);
@@ -109,20 +105,20 @@ const SPANNING: f64 = 1e-9;
 
 /// Grows the surface until its nearest triangle and a direction bound the depth to within the gap; none
 /// if the bodies turn out to be apart.
-fn grow<R: Heights>(
-    pair: &Pair<'_, R>,
+fn grow<R: Real>(
+    pair: &impl Difference<R>,
     surface: &mut Surface<R>,
     gap: R,
     steps: &mut u32,
     enough: impl Fn(&Bounds<R>) -> bool,
 ) -> Option<Bounds<R>> {
     let mut best: Option<Bounds<R>> = None;
-    while surface.points.len() < POINTS {
+    while surface.points.len() < pair.most_points() {
         *steps += 1;
         let Some(nearest) = surface.nearest() else { break };
         let Triangle { normal, distance, corners, stuck, .. } = surface.triangles[nearest];
         let (ids, low) = pair.lowest(&-normal, Some(surface.ids[corners[0] as usize]));
-        if low > R::from(pair.error) {
+        if low > R::from(pair.error()) {
             return None;
         }
 
@@ -161,7 +157,7 @@ fn grow<R: Heights>(
 
 /// Four points of the difference that span space, from the given ones; or the answer, where a direction
 /// is met in which the difference lies to one side of the origin.
-fn spanning<R: Heights>(pair: &Pair<'_, R>, start: &Simplex<R>, gap: R) -> Result<Simplex<R>, Bounds<R>> {
+fn spanning<R: Real>(pair: &impl Difference<R>, start: &Simplex<R>, gap: R) -> Result<Simplex<R>, Bounds<R>> {
     let mut simplex = *start;
     while simplex.count < 4 {
         // directions in which the simplex has no extent
@@ -219,7 +215,7 @@ fn smallest_axis<R: Real>(e: &Vec3<R>) -> Vec3<R> {
 }
 
 /// The answer where `n` separates the bodies to rounding.
-fn flat_answer<R: Heights>(simplex: &Simplex<R>, pair: &Pair<'_, R>, n: Vec3<R>) -> Bounds<R> {
+fn flat_answer<R: Real>(simplex: &Simplex<R>, pair: &impl Difference<R>, n: Vec3<R>) -> Bounds<R> {
     let mut simplex = *simplex;
     simplex.count = simplex.count.min(3);
     let (_, lower) = pair.lowest(&n, Some(simplex.ids[0]));
@@ -230,7 +226,7 @@ fn flat_answer<R: Heights>(simplex: &Simplex<R>, pair: &Pair<'_, R>, n: Vec3<R>)
     Bounds { simplex, point, normal: n, lower, upper: point.norm() }
 }
 
-impl<R: Heights> Surface<R> {
+impl<R: Real> Surface<R> {
     fn tetrahedron(corners: &Simplex<R>) -> Self {
         let mut surface = Self {
             ids: Vec::with_capacity(32),

@@ -20,11 +20,16 @@
 //!
 //! so the height of the difference along any direction, and the length of any of its points, are known
 //! to `error`. The same number is charged once to the lower and once to the upper bound of every answer.
+//! A piece of a compound is turned twice: 2 u for its own rotation, 9 u for the product of the two.
+//!
+//! A body may be the set of all points within `rounding` of a polyhedron: balls and capsules are. Every
+//! `s(n)` then falls by that radius, and so does the signed distance, whatever the state.
 
+use super::answer::Feature;
 use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
-use crate::math::{Pose, Quaternion};
+use crate::math::{Pose, Quaternion, Vector3};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
 
 /// A vertex of each body.
@@ -39,8 +44,140 @@ const CENTERS_UNITS: f64 = 10.0;
 const PLATEAU_UNITS: f64 = 10.0;
 /// Up to this many vertices all are looked at, which costs no more than climbing.
 const SCAN: usize = 16;
+/// Points of an inner polytope [-]: bodies of 100 vertices need 10 to 60; beyond this the depth is given
+/// with the bounds that are proved.
+const POINTS: usize = 1024;
 /// Vertices of equal height that are followed before all are looked at.
 const PLATEAU: usize = 32;
+
+/// Of the radii that round off bodies: their sum and the subtraction [-].
+const ROUNDING_UNITS: f64 = 3.0;
+/// Of a point placed in the world in double-double: two rotations of 22 u and the sums [-].
+const REMOTE_UNITS: f64 = 48.0;
+/// What a piece's own rotation adds, in units `u` times the radii [-].
+const PIECE_UNITS: f64 = 11.0;
+
+/// The difference of two posed convex bodies, as the searches see it.
+pub(super) trait Difference<R: Real> {
+    /// From the centre of A to that of B, world axes [m].
+    fn between(&self) -> Vec3<R>;
+
+    /// Both radii and the distance of the centres [m].
+    fn size(&self) -> f64;
+
+    /// Bound of the rounding error of a height or a length [m].
+    fn error(&self) -> f64;
+
+    /// Up to how many points an inner polytope is grown.
+    fn most_points(&self) -> usize;
+
+    /// The lowest point of the difference along `n`, searched from `from`, and a proven lower bound of
+    /// its height `n · w`, but for the pair's `error` times `|n|`.
+    fn lowest(&self, n: &Vec3<R>, from: Option<Ids>) -> (Ids, R);
+
+    /// A point of the difference [m].
+    fn difference(&self, ids: Ids) -> Vec3<R>;
+
+    /// The point of A that belongs to it, about the centre of A, world axes [m].
+    fn point_a(&self, i: u32) -> Vec3<R>;
+
+    /// The simplex of up to four points of the difference.
+    fn simplex(&self, ids: &[Ids]) -> Simplex<R>;
+
+    /// The features of A and B that carry a simplex, for the normal from A to B.
+    fn features(&self, simplex: &Simplex<R>, normal: &Vec3<R>) -> [Feature; 2];
+}
+
+/// Where a convex body stands: the pose of what it belongs to, its own place there, and how far beyond
+/// its core it reaches.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stand<'a> {
+    pub(super) pose: &'a Pose,
+    pub(super) piece: Option<&'a Placement>,
+    /// Distance from the core within which a point belongs to the body [m].
+    pub(super) rounding: f64,
+}
+
+/// Where a piece stands in its compound, in both precisions.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Placement {
+    position: Vec3<f64>,
+    rows: [Vec3<f64>; 3],
+    precise: [Vec3<DoubleDouble>; 3],
+}
+
+impl Placement {
+    pub(super) fn new(pose: &Pose) -> Self {
+        let precise = rows::<DoubleDouble>(&pose.orientation);
+        Self { position: Vec3(pose.position.into()), rows: precise.map(|r| Vec3(r.to_f64())), precise }
+    }
+
+    /// A point of the piece in the compound's axes [m].
+    pub(super) fn point(&self, p: [f64; 3]) -> Vector3 {
+        (rotate(&self.rows, &Vec3(p)) + self.position).to_vector()
+    }
+}
+
+impl Stand<'_> {
+    /// The rotation of the body's axes.
+    #[inline]
+    pub(super) fn rows<R: Heights>(&self) -> [Vec3<R>; 3] {
+        let outer = rows(&self.pose.orientation);
+        let Some(piece) = self.piece else { return outer };
+        // each row of the product: the columns of the inner rotation, turned back
+        outer.map(|row| rotate_back(R::rows_of(piece), &row))
+    }
+
+    /// Where a point of the body is in the world, in double-double: positions and centres may be large
+    /// and cancel.
+    pub(super) fn precise_point(&self, p: [f64; 3]) -> Vec3<DoubleDouble> {
+        let in_pose = match self.piece {
+            Some(piece) => rotate(&piece.precise, &Vec3::new(p)) + Vec3::new(piece.position.0),
+            None => Vec3::new(p),
+        };
+        rotate(&rows(&self.pose.orientation), &in_pose) + Vec3::new(self.pose.position.into())
+    }
+
+    /// Where a point of the body is in the world [m].
+    #[inline]
+    pub(super) fn point(&self, p: [f64; 3]) -> Vector3 {
+        match self.piece {
+            Some(piece) => self.pose.point(&piece.point(p)),
+            None if p == [0.0; 3] => self.pose.position,
+            None => self.pose.point(&p.into()),
+        }
+    }
+}
+
+/// From one point to another in the world, and the rounding error of that in double-double [m].
+pub(super) fn from_to(at_a: &Stand<'_>, a: [f64; 3], at_b: &Stand<'_>, b: [f64; 3]) -> (Vec3<DoubleDouble>, f64) {
+    let reach = |at: &Stand<'_>, p: [f64; 3]| {
+        let inner = at.piece.map_or(0.0, |piece| piece.position.norm());
+        at.pose.position.amax() + inner + Vec3(p).norm()
+    };
+    let error = DoubleDouble::UNIT * REMOTE_UNITS * (reach(at_a, a) + reach(at_b, b));
+    (at_b.precise_point(b) - at_a.precise_point(a), error)
+}
+
+/// What the size and the error of a pair are made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measure {
+    pub(super) size: f64,
+    pub(super) error: f64,
+}
+
+impl Measure {
+    /// For bodies of these radii [m] whose heights cost `extra` units more than a polyhedron's.
+    #[inline]
+    pub(super) fn new(unit: f64, radii: f64, centers: f64, stands: [&Stand<'_>; 2], extra: f64) -> Self {
+        let rounding = stands[0].rounding + stands[1].rounding;
+        let pieces = if stands.iter().any(|s| s.piece.is_some()) { PIECE_UNITS } else { 0.0 };
+        let units = (RADII_UNITS + pieces + extra) * radii + CENTERS_UNITS * centers + ROUNDING_UNITS * rounding;
+        // the last subtraction of the radii is in f64 even where all else is finer
+        let last = if rounding > 0.0 { f64::UNIT * (rounding + centers) } else { 0.0 };
+        Self { size: radii + centers + rounding, error: unit * units + last }
+    }
+}
 
 /// Two polyhedra, posed.
 #[derive(Debug)]
@@ -60,7 +197,7 @@ pub(super) struct Pair<'a, R> {
 
 /// The rotation `q/|q|` as rows.
 #[inline]
-fn rows<R: Real>(q: &Quaternion) -> [Vec3<R>; 3] {
+pub(super) fn rows<R: Real>(q: &Quaternion) -> [Vec3<R>; 3] {
     let [w, x, y, z] = [q.w, q.i, q.j, q.k].map(R::from);
     let (one, two) = (R::from(1.0), R::from(2.0));
     let k = two / ((w * w + x * x) + (y * y + z * z));
@@ -77,104 +214,61 @@ fn rows<R: Real>(q: &Quaternion) -> [Vec3<R>; 3] {
 
 /// `R v`.
 #[inline]
-fn rotate<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
+pub(super) fn rotate<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
     Vec3([rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)])
 }
 
 /// `Rᵀ v`.
 #[inline]
-fn rotate_back<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
+pub(super) fn rotate_back<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
     rows[0].scaled(v.0[0]) + rows[1].scaled(v.0[1]) + rows[2].scaled(v.0[2])
 }
 
 impl<'a> Pair<'a, f64> {
     #[inline]
-    pub(super) fn new(a: &'a ConvexPolyhedron, pose_a: &Pose, b: &'a ConvexPolyhedron, pose_b: &Pose) -> Self {
-        let between = if a.is_about_origin() && b.is_about_origin() {
-            Vec3((pose_b.position - pose_a.position).into())
+    pub(super) fn new(a: &'a ConvexPolyhedron, at_a: &Stand<'_>, b: &'a ConvexPolyhedron, at_b: &Stand<'_>) -> Self {
+        let are_near = a.is_about_origin() && b.is_about_origin() && at_a.piece.is_none() && at_b.piece.is_none();
+        let (between, remote) = if are_near {
+            (Vec3((at_b.pose.position - at_a.pose.position).into()), 0.0)
         } else {
-            Vec3(center_to_center(a, pose_a, b, pose_b).to_f64())
+            let (between, remote) = from_to(at_a, a.center(), at_b, b.center());
+            (Vec3(between.to_f64()), remote)
         };
-        let (rotation_a, rotation_b) = (rows(&pose_a.orientation), rows(&pose_b.orientation));
-        Self::assemble(a, rotation_a, b, rotation_b, between)
+        Self::assemble(a, at_a, b, at_b, between, remote)
     }
 }
 
 impl<'a> Pair<'a, DoubleDouble> {
-    pub(super) fn precise(a: &'a ConvexPolyhedron, pose_a: &Pose, b: &'a ConvexPolyhedron, pose_b: &Pose) -> Self {
-        let between = center_to_center(a, pose_a, b, pose_b);
-        let (rotation_a, rotation_b) = (rows(&pose_a.orientation), rows(&pose_b.orientation));
-        Self::assemble(a, rotation_a, b, rotation_b, between)
+    pub(super) fn precise(
+        a: &'a ConvexPolyhedron,
+        at_a: &Stand<'_>,
+        b: &'a ConvexPolyhedron,
+        at_b: &Stand<'_>,
+    ) -> Self {
+        let (between, remote) = from_to(at_a, a.center(), at_b, b.center());
+        Self::assemble(a, at_a, b, at_b, between, remote)
     }
 }
 
-/// `t` in double-double: positions and centres may be large and cancel.
-fn center_to_center(a: &ConvexPolyhedron, pose_a: &Pose, b: &ConvexPolyhedron, pose_b: &Pose) -> Vec3<DoubleDouble> {
-    let center = |body: &ConvexPolyhedron, pose: &Pose| {
-        rotate(&rows(&pose.orientation), &Vec3::new(body.center())) + Vec3::new(pose.position.into())
-    };
-    center(b, pose_b) - center(a, pose_a)
-}
-
-impl<'a, R: Real + Heights> Pair<'a, R> {
+impl<'a, R: Heights> Pair<'a, R> {
     #[inline]
     fn assemble(
         a: &'a ConvexPolyhedron,
-        rotation_a: [Vec3<R>; 3],
+        at_a: &Stand<'_>,
         b: &'a ConvexPolyhedron,
-        rotation_b: [Vec3<R>; 3],
+        at_b: &Stand<'_>,
         between: Vec3<R>,
+        remote: f64,
     ) -> Self {
         let (radii, centers) = (a.radius() + b.radius(), Vec3::<f64>(between.to_f64()).norm());
-        let error = R::UNIT * (RADII_UNITS * radii + CENTERS_UNITS * centers);
-        Self { a, b, rotation_a, rotation_b, between, size: radii + centers, error }
-    }
-
-    /// A vertex of A about its centre, world axes.
-    #[inline]
-    pub(super) fn point_a(&self, i: u32) -> Vec3<R> {
-        rotate(&self.rotation_a, &R::vertex(self.a, i as usize))
+        let Measure { size, error } = Measure::new(R::UNIT, radii, centers, [at_a, at_b], 0.0);
+        Self { a, b, rotation_a: at_a.rows(), rotation_b: at_b.rows(), between, size, error: error + remote }
     }
 
     /// A vertex of B about its centre, world axes.
     #[inline]
     pub(super) fn point_b(&self, j: u32) -> Vec3<R> {
         rotate(&self.rotation_b, &R::vertex(self.b, j as usize))
-    }
-
-    /// `w(i, j)`: a point of the difference [m].
-    #[inline]
-    pub(super) fn difference(&self, [i, j]: Ids) -> Vec3<R> {
-        (self.point_b(j) + self.between) - self.point_a(i)
-    }
-
-    /// The simplex of up to four points of the difference. Neighbouring pairs often share a vertex, which
-    /// is then placed once.
-    #[inline]
-    pub(super) fn simplex(&self, ids: &[Ids]) -> Simplex<R> {
-        let mut simplex = Simplex::empty();
-        let Some(&[mut i, mut j]) = ids.first() else { return simplex };
-        let (mut a, mut b) = (self.point_a(i), self.point_b(j) + self.between);
-        for &ids in ids.iter().take(4) {
-            if ids[0] != i {
-                (i, a) = (ids[0], self.point_a(ids[0]));
-            }
-            if ids[1] != j {
-                (j, b) = (ids[1], self.point_b(ids[1]) + self.between);
-            }
-            simplex.push(ids, b - a);
-        }
-        simplex
-    }
-
-    /// The lowest point of the difference along `n`, by climbing from `from`, and a proven lower bound of
-    /// its height `n · w`, but for the pair's `error` times `|n|`.
-    #[inline]
-    pub(super) fn lowest(&self, n: &Vec3<R>, from: Option<Ids>) -> (Ids, R) {
-        let (da, db) = (rotate_back(&self.rotation_a, n), -rotate_back(&self.rotation_b, n));
-        let (i, high_a) = R::farthest(self.a, &da, from.map(|f| f[0]));
-        let (j, high_b) = R::farthest(self.b, &db, from.map(|f| f[1]));
-        ([i, j], n.dot(&self.between) - high_a - high_b)
     }
 
     /// A direction of the world in the axes of A.
@@ -190,10 +284,80 @@ impl<'a, R: Real + Heights> Pair<'a, R> {
     }
 }
 
+impl<R: Heights> Difference<R> for Pair<'_, R> {
+    #[inline]
+    fn between(&self) -> Vec3<R> {
+        self.between
+    }
+
+    #[inline]
+    fn size(&self) -> f64 {
+        self.size
+    }
+
+    #[inline]
+    fn error(&self) -> f64 {
+        self.error
+    }
+
+    fn most_points(&self) -> usize {
+        POINTS
+    }
+
+    #[inline]
+    fn lowest(&self, n: &Vec3<R>, from: Option<Ids>) -> (Ids, R) {
+        let (da, db) = (rotate_back(&self.rotation_a, n), -rotate_back(&self.rotation_b, n));
+        let (i, high_a) = R::farthest(self.a, &da, from.map(|f| f[0]));
+        let (j, high_b) = R::farthest(self.b, &db, from.map(|f| f[1]));
+        ([i, j], n.dot(&self.between) - high_a - high_b)
+    }
+
+    /// `w(i, j)`.
+    #[inline]
+    fn difference(&self, [i, j]: Ids) -> Vec3<R> {
+        (self.point_b(j) + self.between) - self.point_a(i)
+    }
+
+    #[inline]
+    fn point_a(&self, i: u32) -> Vec3<R> {
+        rotate(&self.rotation_a, &R::vertex(self.a, i as usize))
+    }
+
+    /// Neighbouring pairs often share a vertex, which is then placed once.
+    #[inline]
+    fn simplex(&self, ids: &[Ids]) -> Simplex<R> {
+        let mut simplex = Simplex::empty();
+        let Some(&[mut i, mut j]) = ids.first() else { return simplex };
+        let (mut a, mut b) = (self.point_a(i), self.point_b(j) + self.between);
+        for &ids in ids.iter().take(4) {
+            if ids[0] != i {
+                (i, a) = (ids[0], self.point_a(ids[0]));
+            }
+            if ids[1] != j {
+                (j, b) = (ids[1], self.point_b(ids[1]) + self.between);
+            }
+            simplex.push(ids, b - a);
+        }
+        simplex
+    }
+
+    #[inline]
+    fn features(&self, simplex: &Simplex<R>, normal: &Vec3<R>) -> [Feature; 2] {
+        let ids = &simplex.ids[..simplex.count];
+        [
+            feature(self.a, ids, 0, || self.in_axes_of_a(normal).to_f64()),
+            feature(self.b, ids, 1, || (-self.in_axes_of_b(normal)).to_f64()),
+        ]
+    }
+}
+
 /// How vertices are read and the farthest is found in either precision.
 pub(super) trait Heights: Real {
     /// A vertex about the body's centre, body axes.
     fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<Self>;
+
+    /// A piece's rotation.
+    fn rows_of(piece: &Placement) -> &[Vec3<Self>; 3];
 
     /// A vertex farthest along `d`, body axes, and a bound of `d · v` over all vertices.
     fn farthest(body: &ConvexPolyhedron, d: &Vec3<Self>, from: Option<u32>) -> (u32, Self);
@@ -203,6 +367,11 @@ impl Heights for f64 {
     #[inline]
     fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<f64> {
         Vec3(body.vertices_about_center()[k])
+    }
+
+    #[inline]
+    fn rows_of(piece: &Placement) -> &[Vec3<f64>; 3] {
+        &piece.rows
     }
 
     /// Climbing is exact but for rounding: the vertices of a convex body that are at least as high as
@@ -295,6 +464,10 @@ impl Heights for DoubleDouble {
         Vec3([0, 1, 2].map(|i| Self::sum(v[i], -c[i])))
     }
 
+    fn rows_of(piece: &Placement) -> &[Vec3<Self>; 3] {
+        &piece.precise
+    }
+
     /// All vertices are looked at in `f64`, and those near the top in double-double.
     fn farthest(body: &ConvexPolyhedron, d: &Vec3<Self>, _from: Option<u32>) -> (u32, Self) {
         let vertices = body.vertices_about_center();
@@ -311,4 +484,39 @@ impl Heights for DoubleDouble {
         }
         best.unwrap_or((0, Self::default()))
     }
+}
+
+/// The feature spanned by a body's vertices in up to four pairs; of several faces the one that faces outward.
+#[inline]
+pub(super) fn feature(body: &ConvexPolyhedron, pairs: &[Ids], side: usize, outward: impl Fn() -> [f64; 3]) -> Feature {
+    let mut distinct = [0; 4];
+    let mut count = 0;
+    for ids in pairs {
+        if !distinct[..count].contains(&ids[side]) {
+            distinct[count] = ids[side];
+            count += 1;
+        }
+    }
+    if count == 1 {
+        return Feature::Vertex(distinct[0]);
+    }
+    if count == 2
+        && let Some(e) = body.edge_between(distinct[0] as usize, distinct[1] as usize)
+    {
+        return Feature::Edge(u32::try_from(e).unwrap_or(u32::MAX));
+    }
+    let holds_all = |f: &u32| distinct[1..count].iter().all(|&v| body.faces_at(v as usize).contains(f));
+    let mut candidates = body.faces_at(distinct[0] as usize).iter().copied().filter(holds_all);
+    let first = candidates.next();
+    if body.rank() == 3
+        && let Some(f) = first
+    {
+        return Feature::Face(f);
+    }
+
+    // a polygon's two faces hold the same vertices; and rounding may have put them on no common face
+    let d: Vec3<f64> = Vec3(outward());
+    let facing = |&f: &u32| d.dot(&Vec3(body.faces()[f as usize].normal));
+    let all = body.faces_at(distinct[0] as usize).iter().copied();
+    all.max_by(|f, g| facing(f).total_cmp(&facing(g))).map_or(Feature::Vertex(distinct[0]), Feature::Face)
 }

@@ -457,7 +457,7 @@ fn sweep<R: Real>(a: &Placed<'_, R>, b: &Placed<'_, R>) -> Answer<R> {
 
 /// The answer in the world, with its interval rounded outwards.
 fn finish<R: Real>(found: &Answer<R>, error: f64, size: f64, origin: [f64; 2]) -> PlanarClosest {
-    let (lower, upper) = super::outward(found.lower - R::from(error), found.upper + R::from(error));
+    let (lower, upper) = super::climb::outward(found.lower - R::from(error), found.upper + R::from(error));
     let world = |p: V2<R>| [p[0].to_f64() + origin[0], p[1].to_f64() + origin[1]];
     let state = if lower > 0.0 {
         State::Separated

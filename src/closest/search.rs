@@ -9,9 +9,10 @@
 //! The search ends when both meet to within the wanted gap. It falls strictly in `|p|`, so no simplex
 //! returns; where rounding stops the fall, it ends with the best pair of bounds that it has proved.
 
-use super::pair::{Heights, Ids, Pair};
+use super::pair::{Difference, Ids};
 use super::simplex::{Closest, Simplex};
 use super::vector::Vec3;
+use crate::math::double_double::Real;
 
 /// Rounds after which the search ends with what it has [-]: random pairs take 3 to 15.
 const ROUNDS: u32 = 96;
@@ -39,10 +40,11 @@ pub(super) struct Bounds<R> {
     pub(super) upper: R,
 }
 
-/// Searches from the given points of the difference.
-pub(super) fn search<R: Heights>(
-    pair: &Pair<'_, R>,
+/// Searches from the given points of the difference; without any, from the one against `toward`.
+pub(super) fn search<R: Real>(
+    pair: &impl Difference<R>,
     start: &[Ids],
+    toward: &Vec3<R>,
     gap: f64,
     steps: &mut u32,
     enough: impl Fn(&Bounds<R>) -> bool,
@@ -50,14 +52,13 @@ pub(super) fn search<R: Heights>(
     let mut simplex = pair.simplex(start);
     let mut hint = start.first().copied();
     if simplex.count == 0 {
-        // along the line of centres
-        let (ids, _) = pair.lowest(&pair.between, None);
+        let (ids, _) = pair.lowest(toward, None);
         simplex.push(ids, pair.difference(ids));
         hint = Some(ids);
     }
 
     let gap = R::from(gap);
-    let noise = R::from(pair.error);
+    let noise = R::from(pair.error());
     let mut best: Option<Bounds<R>> = None;
     for _ in 0..ROUNDS {
         *steps += 1;
@@ -77,10 +78,11 @@ pub(super) fn search<R: Heights>(
         let one_over = R::from(1.0) / length;
         let found = Bounds { simplex, point, normal: normal.scaled(one_over), lower: height * one_over, upper };
         let closes = upper - found.lower <= gap;
-        if best.as_ref().is_none_or(|b| upper - found.lower < b.upper - b.lower) {
+        let is_enough = enough(&found);
+        if is_enough || best.as_ref().is_none_or(|b| upper - found.lower < b.upper - b.lower) {
             best = Some(found);
         }
-        if closes || simplex.contains(ids) || enough(&found) {
+        if closes || is_enough || simplex.contains(ids) {
             break;
         }
         simplex.push(ids, pair.difference(ids));
@@ -91,12 +93,17 @@ pub(super) fn search<R: Heights>(
 /// Bounds from the given points of the difference, if one look around shows that they still carry the
 /// closest point.
 #[inline]
-pub(super) fn verify<R: Heights>(pair: &Pair<'_, R>, start: &[Ids], gap: f64, steps: &mut u32) -> Option<Bounds<R>> {
+pub(super) fn verify<R: Real>(
+    pair: &impl Difference<R>,
+    start: &[Ids],
+    gap: f64,
+    steps: &mut u32,
+) -> Option<Bounds<R>> {
     *steps += 1;
     let mut simplex = pair.simplex(start);
     let Closest::At { point, normal } = simplex.reduce() else { return None };
     let (upper, length) = (point.norm(), normal.norm());
-    if upper <= R::from(pair.error) || length == R::from(0.0) {
+    if upper <= R::from(pair.error()) || length == R::from(0.0) {
         return None;
     }
     let (_, height) = pair.lowest(&normal, Some(simplex.ids[0]));

@@ -18,10 +18,10 @@
 //! checks them with one look around.
 
 use super::Feature;
-use super::pair::{Ids, Pair};
+use super::pair::{Difference, Ids, Pair};
 use super::simplex::Simplex;
 use super::vector::Vec3;
-use Feature::{Edge, Face, Vertex};
+use Feature::{Edge, Face, Surface, Vertex};
 
 /// Moves after which the walk hands over to the search [-]: coherent motion needs 1 to 4.
 const MOVES: u32 = 32;
@@ -108,6 +108,7 @@ impl Walk<'_> {
         let sides = [(0, Side::A, q), (1, Side::B, p)];
         for (k, side, other_point) in sides {
             let across = match now.features[k] {
+                Surface(_) => None,
                 Vertex(i) => self.edge_across(side, i, &other_point).map(Edge),
                 Edge(e) => self.face_across(side, e, &other_point).map(Face),
                 Face(f) => {
@@ -213,6 +214,7 @@ impl Walk<'_> {
                 let corner = self.body(Side::A).face_vertices(f as usize).next()?;
                 vec![[Vertex(u32::try_from(corner).ok()?), features[1]]]
             }
+            [Surface(_), _] | [_, Surface(_)] => return None, // polyhedra have none
         };
         let settled = pairs.into_iter().filter_map(|pair| match pair {
             [Vertex(i), Face(f)] => self.over_face(Side::B, f, i),

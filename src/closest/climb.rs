@@ -1,0 +1,257 @@
+//! Two convex pieces: the rungs of a query, from the cached vertices to double-double.
+
+use super::answer::{Accuracy, ClosestFeatures, Rung, State};
+use super::cache::PairCache;
+use super::collider::{Core, View};
+use super::depth::{self, Core as Enclosing};
+use super::pair::{Difference, Ids, Pair, feature};
+use super::round_pair::RoundPair;
+use super::search::{self, Bounds, Found};
+use super::vector::Vec3;
+use super::walk;
+use crate::math::double_double::{DoubleDouble, Real};
+use crate::math::{Pose, Vector3};
+use crate::shape::convex_polyhedron::ConvexPolyhedron;
+use crate::tolerance::{CERTIFICATE_SLACK, SEARCH_GAP};
+
+/// Gap at which a search in double-double stops that runs over curved bodies, as a fraction of the
+/// pair's size [-]. Its points close in on the closest one without ever reaching it; this is a quarter
+/// of the rounding of the answer.
+const CURVED_GAP: f64 = 0.125 * f64::EPSILON;
+/// A depth whose interval in `f64` is wider than this fraction of the size [-] has a whole curve of ways
+/// out; more digits do not narrow it.
+const HOPELESS: f64 = 1e-9;
+
+/// Two polyhedra, or what is within a distance of them.
+#[inline]
+pub(super) fn polyhedra(
+    (a, view_a, pose_a): (&ConvexPolyhedron, &View<'_>, &Pose),
+    (b, view_b, pose_b): (&ConvexPolyhedron, &View<'_>, &Pose),
+    cache: Option<&mut PairCache>,
+    accuracy: Accuracy,
+) -> ClosestFeatures {
+    let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
+    let (views, center) = ([view_a, view_b], at_a.point(a.center()));
+    let rounding = view_a.rounding + view_b.rounding;
+    let mut start = [[0; 2]; PairCache::CAPACITY];
+    let (count, inside) = cache.as_ref().map_or((0, false), |c| c.load(a, b, &mut start));
+    let mut steps = 0;
+
+    // in f64 first, in double-double where that proves too little
+    let pair = Pair::new(a, &at_a, b, &at_b);
+    let mut found = climb(&pair, &start[..count], inside, rounding, accuracy, &mut steps);
+    let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
+    if !answer.certified {
+        let pair = Pair::precise(a, &at_a, b, &at_b);
+        let gap = SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT;
+        let precise = find(&pair, &[], &pair.between, rounding, gap, accuracy, &mut steps);
+        let better = describe(&pair, &precise.bounds, views, &center, accuracy, steps, Rung::DoubleDouble);
+        if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
+            (answer, found.core) = (better, precise.core);
+        }
+    }
+    if let Some(cache) = cache {
+        match found.core {
+            Some((ids, count)) if count >= 4 => cache.store(&ids[..count], true),
+            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count], false),
+        }
+    }
+    answer
+}
+
+/// Two bodies of which one at least is curved.
+pub(super) fn curved(
+    (a, view_a, pose_a): (Core<'_>, &View<'_>, &Pose),
+    (b, view_b, pose_b): (Core<'_>, &View<'_>, &Pose),
+    cache: Option<&mut PairCache>,
+    accuracy: Accuracy,
+) -> ClosestFeatures {
+    let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
+    let (views, center) = ([view_a, view_b], at_a.point(a.center()));
+    let rounding = view_a.rounding + view_b.rounding;
+    let mut steps = 0;
+
+    // from the last normal, or along the line of centres
+    let pair = RoundPair::new(a, &at_a, b, &at_b);
+    let toward = cache.as_ref().and_then(|c| c.normal()).map_or_else(|| pair.between(), Vec3);
+    let found = find(&pair, &[], &toward, rounding, SEARCH_GAP, accuracy, &mut steps);
+    let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
+    let is_hopeless = answer.state == State::Overlapping && answer.upper - answer.lower > HOPELESS * pair.size();
+    if !answer.certified && !is_hopeless {
+        let pair = RoundPair::precise(a, &at_a, b, &at_b);
+        let toward = found.bounds.normal.0.map(DoubleDouble::from);
+        let precise = find(&pair, &[], &Vec3(toward), rounding, CURVED_GAP, accuracy, &mut steps);
+        let better = describe(&pair, &precise.bounds, views, &center, accuracy, steps, Rung::DoubleDouble);
+        if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
+            answer = better;
+        }
+    }
+    if let Some(cache) = cache {
+        cache.store_normal(&Vec3(answer.normal.into()));
+    }
+    answer
+}
+
+/// What a rung found: bounds, and of an overlap the vertices that prove it.
+struct Outcome<R> {
+    bounds: Bounds<R>,
+    core: Option<Enclosing>,
+    rung: Rung,
+}
+
+/// The rungs in `f64`: verify the cached vertices, walk from their features, search.
+#[inline]
+fn climb(
+    pair: &Pair<'_, f64>,
+    start: &[Ids],
+    inside: bool,
+    rounding: f64,
+    accuracy: Accuracy,
+    steps: &mut u32,
+) -> Outcome<f64> {
+    let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
+    if inside {
+        if let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy)) {
+            let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
+            return Outcome { bounds, core: Some(core), rung };
+        }
+    } else if (1..=3).contains(&start.len()) {
+        if let Some(bounds) = search::verify(pair, start, gap, steps) {
+            return Outcome { bounds, core: None, rung: Rung::Verified };
+        }
+        let features = [
+            feature(pair.a, start, 0, || pair.in_axes_of_a(&pair.between).to_f64()),
+            feature(pair.b, start, 1, || (-pair.in_axes_of_b(&pair.between)).to_f64()),
+        ];
+        if let Some(carriers) = walk::walk(pair, features, steps) {
+            let carriers = &carriers.ids[..carriers.count];
+            if let Some(bounds) = search::verify(pair, carriers, gap, steps) {
+                return Outcome { bounds, core: None, rung: Rung::Walked };
+            }
+            return find(pair, carriers, &pair.between, rounding, SEARCH_GAP, accuracy, steps);
+        }
+    }
+    find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps)
+}
+
+/// Whether the cores' distance is known to be above or below the rounding, and that is all that was asked
+/// for.
+fn is_known_apart<R: Real>(
+    pair: &impl Difference<R>,
+    rounding: f64,
+    accuracy: Accuracy,
+) -> impl Fn(&Bounds<R>) -> bool {
+    let (only_state, error, rounding) = (accuracy == Accuracy::YesNo, R::from(pair.error()), R::from(rounding));
+    move |found| only_state && (found.upper < rounding - error || found.lower > rounding + error)
+}
+
+/// The same for a depth: what encloses the origin has a negative upper bound.
+fn is_known_inside<R: Real>(pair: &impl Difference<R>, accuracy: Accuracy) -> impl Fn(&Bounds<R>) -> bool {
+    is_known_apart(pair, 0.0, accuracy)
+}
+
+/// The gap at which a query may stop, as a fraction of the size.
+fn gap_of(accuracy: Accuracy, finest: f64) -> f64 {
+    if let Accuracy::Relative(r) = accuracy { r.max(finest) } else { finest }
+}
+
+/// The signed distance of the cores by distance search and, where they meet, depth.
+fn find<R: Real>(
+    pair: &impl Difference<R>,
+    start: &[Ids],
+    toward: &Vec3<R>,
+    rounding: f64,
+    gap: f64,
+    accuracy: Accuracy,
+    steps: &mut u32,
+) -> Outcome<R> {
+    let gap = gap_of(accuracy, gap) * pair.size();
+    let (bounds, core) = match search::search(pair, start, toward, gap, steps, is_known_apart(pair, rounding, accuracy))
+    {
+        Found::Apart(bounds) => (bounds, None),
+        Found::Inside(simplex) => {
+            let (bounds, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
+            (bounds, Some(core))
+        }
+    };
+    Outcome { bounds, core, rung: Rung::Searched }
+}
+
+/// The answer in the world, with its interval.
+#[inline]
+fn describe<R: Real>(
+    pair: &impl Difference<R>,
+    found: &Bounds<R>,
+    views: [&View<'_>; 2],
+    center: &Vector3,
+    accuracy: Accuracy,
+    steps: u32,
+    rung: Rung,
+) -> ClosestFeatures {
+    // the interval of the cores; a ball around the origin is proved only where its radius exceeds the error
+    let error = R::from(pair.error());
+    let upper = if found.upper < -error { found.upper } else { found.point.norm() };
+    let rounding = R::from(views[0].rounding + views[1].rounding);
+    let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
+    let certified = is_certified(lower, upper, accuracy, pair.error(), pair.size());
+
+    // both points, joined by the same vector that the distance is taken from
+    let simplex = &found.simplex;
+    let first = simplex.ids[0][0];
+    let on_a = if simplex.ids[..simplex.count].iter().all(|ids| ids[0] == first) {
+        pair.point_a(first)
+    } else {
+        let weighted = |k: usize| pair.point_a(simplex.ids[k][0]).scaled(simplex.weights[k]);
+        (1..simplex.count).fold(weighted(0), |sum, k| sum + weighted(k))
+    };
+    let normal = found.normal.to_vector();
+    let core_a = center + on_a.to_vector();
+    let core_b = core_a + found.point.to_vector();
+    let [feature_a, feature_b] = pair.features(simplex, &found.normal);
+    ClosestFeatures {
+        signed_distance: (found.normal.dot(&found.point) - rounding).to_f64(),
+        lower,
+        upper,
+        state: state(lower, upper),
+        point_a: if views[0].rounding > 0.0 { core_a + views[0].rounding * normal } else { core_a },
+        point_b: if views[1].rounding > 0.0 { core_b - views[1].rounding * normal } else { core_b },
+        normal,
+        feature_a: views[0].names.name(feature_a),
+        feature_b: views[1].names.name(feature_b),
+        part_a: 0,
+        part_b: 0,
+        steps,
+        rung,
+        certified,
+    }
+}
+
+/// What an interval says.
+#[inline]
+pub(super) fn state(lower: f64, upper: f64) -> State {
+    if lower > 0.0 {
+        State::Separated
+    } else if upper < 0.0 {
+        State::Overlapping
+    } else {
+        State::Touching
+    }
+}
+
+/// Whether an interval is as narrow as was asked for.
+#[inline]
+pub(super) fn is_certified(lower: f64, upper: f64, accuracy: Accuracy, error: f64, size: f64) -> bool {
+    let floor = 2.0 * error + CERTIFICATE_SLACK * size;
+    match accuracy {
+        Accuracy::Exact => upper - lower <= floor,
+        Accuracy::Relative(r) => upper - lower <= floor.max(r * size),
+        Accuracy::YesNo => state(lower, upper) != State::Touching || upper - lower <= floor,
+    }
+}
+
+/// Both bounds as `f64`, rounded outwards.
+#[inline]
+pub(super) fn outward<R: Real>(lower: R, upper: R) -> (f64, f64) {
+    let (l, u) = (lower.to_f64(), upper.to_f64());
+    (if R::from(l) > lower { l.next_down() } else { l }, if R::from(u) < upper { u.next_up() } else { u })
+}
