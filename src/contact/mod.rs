@@ -1,6 +1,7 @@
 //! What happens when a body touches a fixed plane: it bounces, or it sticks (lecture §7).
 
 pub mod bounce;
+pub mod broad_phase;
 pub mod stick;
 
 use crate::math::Vector3;

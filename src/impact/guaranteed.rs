@@ -37,21 +37,22 @@
 
 use super::motion::{Instant, MotionBounds, Moving};
 use super::{Found, Outcome};
-use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, closest_features};
+use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, Piece};
 use crate::error::Result;
 use crate::math::{Matrix3, Vector3, quaternion};
-use crate::shape::convex_polyhedron::ConvexPolyhedron;
 
-/// A body and its motion.
+/// A convex body and its motion.
 struct Side<'a> {
-    shape: &'a ConvexPolyhedron,
+    piece: Piece<'a>,
     motion: &'a dyn Moving,
-    /// From the moving point to the shape's centre, shape axes [m].
+    /// From the moving point to the piece's centre, shape axes [m].
     offset: Vector3,
-    /// Largest distance of the body from the moving point [m].
+    /// Largest distance of the core from the moving point [m].
     radius: f64,
+    /// Whether it is a half space: all of it on one side of a plane.
+    is_plane: bool,
     /// Where the last climb ended.
-    vertex: usize,
+    vertex: u32,
     /// What a steady spin sweeps.
     swept: Option<Swept>,
 }
@@ -65,15 +66,15 @@ struct Swept {
 }
 
 impl Swept {
-    fn new(side: &Side<'_>, placed: &Placed) -> Self {
+    fn new(side: &Side<'_>, corners: &[Vector3], placed: &Placed) -> Self {
         let spin = placed.instant.angular_velocity;
         let axis = spin / spin.norm();
         let axis_body = placed.rotation.tr_mul(&axis);
-        let along_and_from = |v: &[f64; 3]| {
-            let v = Vector3::from(*v) + side.offset;
+        let along_and_from = |v: &Vector3| {
+            let v = v + side.offset;
             [v.dot(&axis_body), v.cross(&axis_body).norm()]
         };
-        Self { spin, axis, profile: side.shape.vertices_about_center().iter().map(along_and_from).collect() }
+        Self { spin, axis, profile: corners.iter().map(along_and_from).collect() }
     }
 
     /// Its support along `d` [m].
@@ -90,9 +91,11 @@ struct Placed {
 }
 
 impl<'a> Side<'a> {
-    fn new(shape: &'a ConvexPolyhedron, motion: &'a dyn Moving) -> Self {
-        let offset = Vector3::from(shape.center()) - motion.center();
-        Self { shape, motion, offset, radius: offset.norm() + shape.radius(), vertex: 0, swept: None }
+    fn new(piece: Piece<'a>, motion: &'a dyn Moving) -> Self {
+        let offset = piece.center - motion.center();
+        let is_plane = piece.plane().is_some();
+        let radius = if is_plane { 0.0 } else { offset.norm() + piece.reach - piece.rounding() };
+        Self { piece, motion, offset, radius, is_plane, vertex: 0, swept: None }
     }
 
     fn at(&self, t: f64) -> Placed {
@@ -100,23 +103,16 @@ impl<'a> Side<'a> {
         Placed { rotation: quaternion::to_matrix(&instant.pose.orientation), instant }
     }
 
-    /// The support `max d·(a − c)` of the body, from the moving point.
+    /// The support `max d·(a − c)` of the core, from the moving point; of a half space its plane's.
     fn height(&mut self, placed: &Placed, d: &Vector3) -> f64 {
         let d = placed.rotation.tr_mul(d);
-        let vertices = self.shape.vertices_about_center();
-        let along = |v: &[f64; 3]| v[0] * d.x + v[1] * d.y + v[2] * d.z;
-        let top = if vertices.len() <= SCAN {
-            vertices.iter().map(along).fold(f64::NEG_INFINITY, f64::max)
-        } else {
-            self.vertex = self.shape.climb(self.vertex, &d.into());
-            along(&vertices[self.vertex])
-        };
-        d.dot(&self.offset) + top
+        let about_center = if self.is_plane { 0.0 } else { self.piece.height(&d, &mut self.vertex) };
+        d.dot(&self.offset) + about_center
     }
 
     /// Direction of an edge, world axes.
     fn edge(&self, placed: &Placed, edge: u32) -> Vector3 {
-        placed.rotation * Vector3::from(self.shape.edges()[edge as usize].direction)
+        self.piece.edge(edge).map_or_else(Vector3::zeros, |e| placed.rotation * e)
     }
 }
 
@@ -160,15 +156,15 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     pub(super) fn new(
-        a: (&'a ConvexPolyhedron, &'a dyn Moving),
-        b: (&'a ConvexPolyhedron, &'a dyn Moving),
+        a: (Piece<'a>, &'a dyn Moving),
+        b: (Piece<'a>, &'a dyn Moving),
         cache: &'a mut PairCache,
     ) -> Self {
         Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0 }
     }
 
     /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
-    pub(super) fn run(&mut self, from: f64, to: f64, eps: f64) -> Result<(Found, ClosestFeatures)> {
+    pub(super) fn run(&mut self, from: f64, to: f64, eps: f64) -> Result<Found> {
         let mut look = self.look(from)?;
         let start = [look.a.instant.center.norm(), look.b.instant.center.norm()];
         let mut eps_here = eps.max(self.rounding(&look, start, from));
@@ -176,7 +172,7 @@ impl<'a> Search<'a> {
         let mut phase = if gap > eps_here {
             Phase::Free
         } else if gap < -self.rounding(&look, start, from) {
-            return Ok((self.found(Outcome::Overlap, from, 0), look.closest));
+            return Ok(self.found(Outcome::Overlap, from, 0));
         } else {
             Phase::Leaving(if look.closest.lower > 0.0 { 0.5 * look.closest.lower } else { gap - eps_here })
         };
@@ -188,18 +184,18 @@ impl<'a> Search<'a> {
             match phase {
                 Phase::Free if gap <= eps_here => {
                     if look.closest.lower <= 0.0 {
-                        return Ok((self.found(Outcome::Stalled, t, round), look.closest));
+                        return Ok(self.found(Outcome::Stalled, t, round));
                     }
                     // what comes with speed is an impact; what hardly moves may be about to leave
                     let ahead = self.advance(&look, -eps_here, to - t);
                     if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
-                        return Ok((self.found(Outcome::At, t, round), look.closest));
+                        return Ok(self.found(Outcome::At, t, round));
                     }
                     (phase, stays) = (Phase::Grazing(t), 0);
                 }
                 Phase::Leaving(_) if gap > eps_here => phase = Phase::Free,
                 Phase::Grazing(since) if gap > eps_here => {
-                    return Ok((self.found(Outcome::Grazing, since, round), look.closest));
+                    return Ok(self.found(Outcome::Grazing, since, round));
                 }
                 _ => {}
             }
@@ -218,32 +214,31 @@ impl<'a> Search<'a> {
                 Phase::Leaving(_) if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
                     let outcome =
                         if t > from && look.closest.lower > 0.0 { Outcome::At } else { Outcome::AlreadyTouching };
-                    return Ok((self.found(outcome, t, round), look.closest));
+                    return Ok(self.found(outcome, t, round));
                 }
                 Phase::Grazing(since)
                     if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
                 {
-                    let there = self.look(since)?;
-                    return Ok((self.found(Outcome::At, since, round), there.closest));
+                    return Ok(self.found(Outcome::At, since, round));
                 }
                 _ => {}
             }
             if step >= to - t {
                 let outcome = if let Phase::Grazing(since) = phase {
-                    return Ok((self.found(Outcome::Grazing, since, round), look.closest));
+                    return Ok(self.found(Outcome::Grazing, since, round));
                 } else {
                     Outcome::Clear
                 };
-                return Ok((self.found(outcome, to, round), look.closest));
+                return Ok(self.found(outcome, to, round));
             }
             let next = t + step;
             if next <= t {
-                return Ok((self.found(Outcome::Stalled, t, round), look.closest));
+                return Ok(self.found(Outcome::Stalled, t, round));
             }
             look = self.look(next)?;
             eps_here = eps.max(self.rounding(&look, start, from));
         }
-        Ok((self.found(Outcome::Stalled, look.time, ROUNDS), look.closest))
+        Ok(self.found(Outcome::Stalled, look.time, ROUNDS))
     }
 
     fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
@@ -253,9 +248,8 @@ impl<'a> Search<'a> {
     /// The closest features at `t`, and what the bounds need.
     fn look(&mut self, t: f64) -> Result<Look> {
         let (a, b) = (self.a.at(t), self.b.at(t));
-        let (shape_a, shape_b) = (self.a.shape, self.b.shape);
-        let closest =
-            closest_features(shape_a, &a.instant.pose, shape_b, &b.instant.pose, Some(self.cache), Accuracy::Exact)?;
+        let (pose_a, pose_b) = (&a.instant.pose, &b.instant.pose);
+        let closest = self.a.piece.closest(pose_a, &self.b.piece, pose_b, self.cache, Accuracy::Exact)?;
         self.queries += 1;
         let n = closest.normal;
         let heights = [self.a.height(&a, &n), self.b.height(&b, &-n)];
@@ -317,6 +311,9 @@ impl<'a> Search<'a> {
 
         // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
         let along = |edge: &Vector3, w: &Vector3| w.cross(n).dot(edge);
+        if self.a.is_plane || self.b.is_plane {
+            return [Some(if self.a.is_plane { w_a } else { w_b }), None];
+        }
         let natural = match (look.closest.feature_a, look.closest.feature_b) {
             (Feature::Face(_), _) => w_a,
             (_, Feature::Face(_)) => w_b,
@@ -334,7 +331,7 @@ impl<'a> Search<'a> {
                 let f = self.b.edge(&look.b, j);
                 n.cross(&(along(&f, &w_b) * f))
             }
-            (Feature::Vertex(_), Feature::Vertex(_)) => zero,
+            _ => zero,
         };
         if natural == zero || !natural.norm_squared().is_finite() {
             return [Some(zero), None];
@@ -355,7 +352,7 @@ impl<'a> Search<'a> {
         let (turning_size, rate_size) = (turning.norm(), rate.norm());
         let fastest = look.approach.norm() + h * (size + deviation);
         let farthest = look.between.norm() + h * fastest;
-        let mut start = n.dot(&look.between);
+        let mut start = n.dot(&look.between) - self.a.piece.rounding() - self.b.piece.rounding();
         let mut end = start + h * (rate.dot(&look.between) + n.dot(&look.approach));
         let mut bend =
             rate_size * (turning_size * farthest + 2.0 * fastest + h * size) + deviation - n.dot(&acceleration);
@@ -399,6 +396,9 @@ impl Side<'_> {
         let r = self.radius;
 
         // in axes that turn with Ω: a′ = ρ × a and a″ = ρ × (ρ × a) + ρ′ × a with ρ = ω − Ω
+        if self.is_plane && bounds.angular_acceleration > 0.0 {
+            return Part { start: height, end: f64::INFINITY, bend: 0.0 }; // a plane without end: nothing is proved
+        }
         let relative = w - turning;
         let across = relative.cross(d).norm();
         let change = bounds.angular_acceleration * (1.0 + turning.norm() * h) + turning.cross(w).norm();
@@ -407,7 +407,7 @@ impl Side<'_> {
 
         // without Ω: the plain bound, or all that is swept
         let mut plain = f64::INFINITY;
-        if resting {
+        if resting && !self.is_plane {
             let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
             plain = height + h * fastest * r;
             let all = self.swept(placed, bounds, d, h);
@@ -432,7 +432,10 @@ impl Side<'_> {
         }
         let swept = match self.swept.take().filter(|swept| swept.spin == *w) {
             Some(swept) => swept,
-            None => Swept::new(self, placed),
+            None => match self.piece.corners() {
+                Some(corners) => Swept::new(self, &corners, placed),
+                None => return self.radius,
+            },
         };
         let height = swept.height(d);
         self.swept = Some(swept);
@@ -453,8 +456,6 @@ fn crossing(c: f64, b: f64, k: f64) -> f64 {
     if below > 0.0 { 2.0 * c / below } else { f64::INFINITY }
 }
 
-/// Up to this many vertices all are looked at, which costs no more than climbing.
-const SCAN: usize = 16;
 /// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
 const ROUNDS: u32 = 100_000;
 /// How often a bound is tried with another look ahead [-].

@@ -21,9 +21,8 @@ mod secant;
 pub use ends::Found;
 pub use motion::{Instant, Motion, MotionBounds, Moving};
 
-use crate::closest::{Accuracy, ClosestFeatures, PairCache, closest_features};
+use crate::closest::{Accuracy, ClosestFeatures, Collidable, PairCache, closest_features};
 use crate::error::{Error, Result};
-use crate::shape::convex_polyhedron::ConvexPolyhedron;
 use crate::tolerance::IMPACT_GAP;
 
 /// How the time of contact is found.
@@ -130,10 +129,10 @@ pub struct Impact {
 /// # Ok(())
 /// # }
 /// ```
-pub fn time_of_impact(
-    a: &ConvexPolyhedron,
+pub fn time_of_impact<'a, 'b>(
+    a: impl Into<Collidable<'a>>,
     motion_a: &dyn Moving,
-    b: &ConvexPolyhedron,
+    b: impl Into<Collidable<'b>>,
     motion_b: &dyn Moving,
     t_max: f64,
     eps: Option<f64>,
@@ -146,42 +145,62 @@ pub fn time_of_impact(
     if let Some(eps) = eps.filter(|eps| !(*eps > 0.0 && eps.is_finite())) {
         return Err(Error::value(place, "eps", "positive and finite", eps));
     }
-    let eps = eps.unwrap_or(IMPACT_GAP * (a.radius() + b.radius()));
-    let mut cache = PairCache::new();
-    if finder == Finder::Guaranteed {
-        let (found, mut closest) =
-            guaranteed::Search::new((a, motion_a), (b, motion_b), &mut cache).run(0.0, t_max, eps)?;
-        if found.outcome == Outcome::Clear || found.outcome == Outcome::Grazing {
-            closest = between(a, motion_a, b, motion_b, found.time, &mut cache)?;
-        }
-        let Found { outcome, time, iterations, queries } = found;
-        return Ok(Impact { outcome, time, iterations, queries, closest });
-    }
-
-    // the first pose that cannot be queried is remembered: the finders see numbers only
-    let mut refused = None;
-    let mut gap = |t: f64| match between(a, motion_a, b, motion_b, t, &mut cache) {
-        Ok(closest) => closest.signed_distance,
-        Err(error) => {
-            refused.get_or_insert(error);
-            f64::NAN
+    let (a, b) = ((a.into(), motion_a), (b.into(), motion_b));
+    let eps = eps.unwrap_or(IMPACT_GAP * (a.0.size() + b.0.size()));
+    let Found { outcome, time, iterations, queries } = match finder {
+        Finder::Guaranteed => first_impact(a, b, 0.0, t_max, eps)?,
+        Finder::Bisection | Finder::Secant => {
+            // the first pose that cannot be queried is remembered: the finders see numbers only
+            let (mut cache, mut refused) = (PairCache::new(), None);
+            let gap = |t: f64| match between(a, b, t, &mut cache) {
+                Ok(closest) => closest.signed_distance,
+                Err(error) => {
+                    refused.get_or_insert(error);
+                    f64::NAN
+                }
+            };
+            let found = find_impact(gap, t_max, eps, finder);
+            if let Some(error) = refused {
+                return Err(error);
+            }
+            found
         }
     };
-    let next = if finder == Finder::Bisection { bisection::next } else { secant::next };
-    let Found { outcome, time, iterations, queries } = ends::find(&mut gap, t_max, eps, next);
-    if let Some(error) = refused {
-        return Err(error);
-    }
-    let closest = between(a, motion_a, b, motion_b, time, &mut cache)?;
+    let closest = between(a, b, time, &mut PairCache::new())?;
     Ok(Impact { outcome, time, iterations, queries, closest })
+}
+
+/// The guaranteed search over `from..=to` [s]: of bodies of several pieces, the earliest impact of two.
+pub(crate) fn first_impact(
+    (a, motion_a): (Collidable<'_>, &dyn Moving),
+    (b, motion_b): (Collidable<'_>, &dyn Moving),
+    from: f64,
+    to: f64,
+    eps: f64,
+) -> Result<Found> {
+    let mut first = Found { outcome: Outcome::Clear, time: to, iterations: 0, queries: 0 };
+    for i in 0..a.pieces() {
+        for j in 0..b.pieces() {
+            let mut cache = PairCache::new();
+            let mut search = guaranteed::Search::new((a.piece(i), motion_a), (b.piece(j), motion_b), &mut cache);
+            let found = search.run(from, first.time, eps)?;
+            first.iterations += found.iterations;
+            first.queries += found.queries;
+            if found.outcome != Outcome::Clear && (first.outcome == Outcome::Clear || found.time < first.time) {
+                (first.outcome, first.time) = (found.outcome, found.time);
+            }
+            if first.time <= from {
+                return Ok(first);
+            }
+        }
+    }
+    Ok(first)
 }
 
 /// The closest features at `t` [s].
 fn between(
-    a: &ConvexPolyhedron,
-    motion_a: &dyn Moving,
-    b: &ConvexPolyhedron,
-    motion_b: &dyn Moving,
+    (a, motion_a): (Collidable<'_>, &dyn Moving),
+    (b, motion_b): (Collidable<'_>, &dyn Moving),
     t: f64,
     cache: &mut PairCache,
 ) -> Result<ClosestFeatures> {
@@ -199,6 +218,7 @@ pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Fi
 mod tests {
     use super::*;
     use crate::math::{Pose, Vector3};
+    use crate::shape::convex_polyhedron::ConvexPolyhedron;
 
     fn cuboid(h: [f64; 3]) -> ConvexPolyhedron {
         let corner = |k: usize| std::array::from_fn(|i| if (k >> i) & 1 == 0 { -h[i] } else { h[i] });
