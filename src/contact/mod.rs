@@ -2,6 +2,11 @@
 
 pub mod bounce;
 pub mod broad_phase;
+pub mod cluster;
+pub mod collision;
+mod friction;
+mod reflection;
+pub mod solver;
 pub mod stick;
 
 use crate::math::Vector3;

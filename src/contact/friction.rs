@@ -1,0 +1,210 @@
+//! Simultaneous impact with Coulomb friction: two phases, and one cone for the total impulse.
+//!
+//! ```text
+//! compression   all approaching contacts stop:  p_n ≥ 0 ⟂ u_n ≥ 0, friction from the velocities then
+//! restitution   p_n ≥ (1 + e) p_c ⟂ u_n ≥ 0     (Poisson: e times the impulse of compression comes back)
+//!               |p_t| ≤ μ p_n for the total p, against the sliding that is left at the end
+//! ```
+//!
+//! A second cone for the restitution alone, or none, would leave a sliding ball too fast by exactly `μ e u_n`.
+//! Newton's law asks for `u_n ≥ −e u_n⁻` instead of the impulse.
+//!
+//! Several contacts are answered in the rounds of [`reflection`](super::reflection), and a mixture of
+//! restitutions in the same slices; what is mixed are normal impulses, then friction is solved once for all
+//! of them. Without friction this is that answer.
+//!
+//! Energy. The compression alone never gains any. The restitution can, where friction couples normal and
+//! tangent (Kane & Levinson 1985); then it is weakened to the largest part κ of it that gains none. Stronge's
+//! law (1990) is the same with a stricter bound: what the normal impulses give back is at most `Σ e² ·` what
+//! each took in compression.
+
+use super::collision::Law;
+use super::reflection::{energy_change, rounds_for, slices};
+use super::solver::Coulomb;
+use super::solver::dense::{Dense, dot};
+
+/// A scaled problem with friction, three rows a contact.
+pub(super) struct Rubbing<'a> {
+    pub(super) w: &'a Dense,
+    pub(super) q: &'a [f64],
+    pub(super) friction: &'a [f64],
+    /// Approach that rounding alone may leave, one a contact.
+    pub(super) noise: &'a [f64],
+    pub(super) law: Law,
+}
+
+/// Impulses of a problem with friction.
+pub(super) struct Rubbed {
+    pub(super) impulse: Vec<f64>,
+    pub(super) residual: f64,
+    pub(super) rounds: u32,
+    /// The part of the restitution that was used [-].
+    pub(super) kept: f64,
+}
+
+/// Halvings of the part of the restitution [-]: to its last digit.
+const HALVINGS: usize = 52;
+/// Energy that counts as none, as a fraction of `qᵀq` [-]: rounding of the sums.
+const GAIN: f64 = 1.0e-14;
+
+/// What the restitution asks for.
+enum Wish {
+    /// A least normal impulse at each contact.
+    Impulse(Vec<f64>),
+    /// A least normal velocity at each contact.
+    Velocity(Vec<f64>),
+}
+
+impl Wish {
+    fn scaled(&self, from: &[f64], part: f64) -> Self {
+        match self {
+            Self::Impulse(p) => Self::Impulse(p.iter().zip(from).map(|(p, f)| f + part * (p - f)).collect()),
+            Self::Velocity(u) => Self::Velocity(u.iter().map(|u| part * u).collect()),
+        }
+    }
+}
+
+impl Rubbing<'_> {
+    /// The answer with these restitutions.
+    pub(super) fn answer(&self, restitution: &[f64]) -> Rubbed {
+        let n = self.friction.len();
+        let (plastic, mut residual) = self.impact(&Wish::Impulse(vec![0.0; n]));
+        let mut rounds = 1;
+        if restitution.iter().all(|&e| e == 0.0) {
+            return Rubbed { impulse: plastic, residual, rounds, kept: 1.0 };
+        }
+
+        // mix the normal impulses and velocities of the slices
+        let (mut impulses, mut speeds) = (vec![0.0; n], vec![0.0; n]);
+        for (weight, elastic) in slices(restitution) {
+            let p = if elastic.contains(&true) {
+                let (p, worst, count) = self.rounds(&elastic);
+                residual = residual.max(worst);
+                rounds += count;
+                p
+            } else {
+                plastic.clone()
+            };
+            let u = self.w.times_plus(&p, self.q);
+            for i in 0..n {
+                impulses[i] += weight * p[3 * i];
+                speeds[i] += weight * u[3 * i];
+            }
+        }
+        let wish = match self.law {
+            Law::Poisson | Law::Stronge => Wish::Impulse(impulses),
+            Law::Newton => Wish::Velocity(
+                speeds.iter().zip(&impulses).map(|(u, p)| if *p > 0.0 { u.max(0.0) } else { 0.0 }).collect(),
+            ),
+        };
+        let limit = (self.law == Law::Stronge).then(|| self.stronge_limit(&plastic, restitution));
+        let (impulse, last, kept) = self.restore(&plastic, &wish, limit);
+        Rubbed { impulse, residual: residual.max(last), rounds: rounds + 1, kept }
+    }
+
+    /// Rounds of elastic pairs of phases over the approaching contacts.
+    fn rounds(&self, elastic: &[bool]) -> (Vec<f64>, f64, u32) {
+        let n = self.friction.len();
+        let mut p = vec![0.0; 3 * n];
+        let mut worst = 0.0f64;
+        let mut count = 0;
+        for round in 1..=rounds_for(n) {
+            let u = self.w.times_plus(&p, self.q);
+            let approaching: Vec<usize> = (0..n).filter(|&i| u[3 * i] < -self.noise[i]).collect();
+            if approaching.is_empty() {
+                return (p, worst, count);
+            }
+            count = round;
+            let rows: Vec<usize> = approaching.iter().flat_map(|&i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+            let w = self.w.part(&rows);
+            let q: Vec<f64> = rows.iter().map(|&r| u[r]).collect();
+            let pick = |x: &[f64]| approaching.iter().map(|&i| x[i]).collect::<Vec<f64>>();
+            let (friction, noise) = (pick(self.friction), pick(self.noise));
+            let part = Rubbing { w: &w, q: &q, friction: &friction, noise: &noise, law: self.law };
+
+            let (stop, residual) = part.impact(&Wish::Impulse(vec![0.0; approaching.len()]));
+            let back = |i: usize| if elastic[approaching[i]] { 1.0 } else { 0.0 };
+            let count = approaching.len();
+            let wish = match self.law {
+                Law::Poisson | Law::Stronge => {
+                    Wish::Impulse((0..count).map(|i| (1.0 + back(i)) * stop[3 * i]).collect())
+                }
+                Law::Newton => Wish::Velocity((0..count).map(|i| -back(i) * q[3 * i]).collect()),
+            };
+            let (pair, last, _) = part.restore(&stop, &wish, None);
+            worst = worst.max(residual).max(last);
+            for (&r, x) in rows.iter().zip(&pair) {
+                p[r] += x;
+            }
+        }
+
+        // what the rounds have left is stopped
+        let u = self.w.times_plus(&p, self.q);
+        let rest = Rubbing { q: &u, ..*self };
+        let (stop, last) = rest.impact(&Wish::Impulse(vec![0.0; n]));
+        for (p, s) in p.iter_mut().zip(&stop) {
+            *p += s;
+        }
+        (p, worst.max(last), count + 1)
+    }
+
+    /// One impact that meets a wish.
+    fn impact(&self, wish: &Wish) -> (Vec<f64>, f64) {
+        let n = self.friction.len();
+        let none = vec![None; n];
+        let mut q = self.q.to_vec();
+        let zeros = vec![0.0; n];
+        let floor = match wish {
+            Wish::Impulse(floor) => floor,
+            Wish::Velocity(speeds) => {
+                for i in 0..n {
+                    q[3 * i] -= speeds[i];
+                }
+                &zeros
+            }
+        };
+        let found = Coulomb { w: self.w, q: &q, friction: self.friction, floor, slide: &none }.solve();
+        (found.impulse, found.residual)
+    }
+
+    /// The largest part of the restitution that makes no energy and gives back no more than `limit`.
+    fn restore(&self, plastic: &[f64], wish: &Wish, limit: Option<f64>) -> (Vec<f64>, f64, f64) {
+        let normal: Vec<f64> = plastic.iter().step_by(3).copied().collect();
+        let slack = GAIN * dot(self.q, self.q);
+        let fits = |p: &[f64]| {
+            energy_change(self.w, self.q, p) <= slack
+                && limit.is_none_or(|limit| self.given_back(plastic, p) <= limit + slack)
+        };
+        let (whole, residual) = self.impact(wish);
+        if fits(&whole) {
+            return (whole, residual, 1.0);
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut best = (plastic.to_vec(), 0.0, 0.0);
+        for _ in 0..HALVINGS {
+            let part = 0.5 * (low + high);
+            let (p, residual) = self.impact(&wish.scaled(&normal, part));
+            if fits(&p) {
+                low = part;
+                best = (p, residual, part);
+            } else {
+                high = part;
+            }
+        }
+        best
+    }
+
+    /// Work of the normal impulses after compression [J].
+    fn given_back(&self, plastic: &[f64], p: &[f64]) -> f64 {
+        let (middle, after) = (self.w.times_plus(plastic, self.q), self.w.times_plus(p, self.q));
+        let normal = (0..p.len()).step_by(3);
+        normal.map(|k| 0.5 * (p[k] - plastic[k]) * (middle[k] + after[k])).sum()
+    }
+
+    /// Stronge's bound: `Σ e²` times what each normal impulse took in compression [J].
+    fn stronge_limit(&self, plastic: &[f64], restitution: &[f64]) -> f64 {
+        let middle = self.w.times_plus(plastic, self.q);
+        let took = |i: usize| -0.5 * plastic[3 * i] * (self.q[3 * i] + middle[3 * i]);
+        restitution.iter().enumerate().map(|(i, e)| e * e * took(i)).sum()
+    }
+}

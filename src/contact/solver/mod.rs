@@ -1,0 +1,156 @@
+//! Solvers of small contact problems, one a file; each answer carries its residual.
+//!
+//! All work in contact space: impulses `p`, relative velocities `u = W p + q` after them, and the matrix
+//! `W = J M⁻¹ Jᵀ` of how an impulse at one contact moves another, everything scaled per contact so that
+//! W's diagonal is near 1; then p and u share the unit √J and one residual serves both.
+//!
+//! | file | solves |
+//! |---|---|
+//! | [`active_set`] | contact without friction |
+//! | [`newton`] | contact with Coulomb friction, by Newton's method |
+//! | [`splitting`] | the same where Newton's method fails, by a slow and sure splitting |
+//! | [`dense`] | the linear algebra beneath |
+//!
+//! [`Coulomb::solve`] is the ladder: all contacts grip; Newton from there; the splitting with Newton as its
+//! last step. What comes out is the first answer whose residual is at most [`CERTIFIED`], else the best.
+
+pub mod active_set;
+pub mod dense;
+pub mod newton;
+pub mod splitting;
+
+use dense::{Dense, largest, least_norm};
+
+/// Residual up to which a solution counts as one [-], relative to the largest velocity before. Rounding
+/// leaves 1e-16 times the condition number of the contacts, mass ratios of 1e4 leave 1e-12. Larger: worse
+/// answers pass. Smaller: the next solver is asked in vain.
+pub const CERTIFIED: f64 = 1.0e-11;
+
+/// Impulses, and how far they are from solving the problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Scaled impulses, in the order of the rows.
+    pub impulse: Vec<f64>,
+    /// Natural-map residual over the largest velocity before [-].
+    pub residual: f64,
+}
+
+impl Solution {
+    /// The better of two answers.
+    fn or(self, other: Self) -> Self {
+        if other.residual < self.residual { other } else { self }
+    }
+}
+
+/// Contact with friction: three rows a contact, the normal one first.
+///
+/// ```text
+/// u = W p + q
+/// p_n ≥ f,  u_n ≥ 0,  (p_n − f) u_n = 0                    normal, with a least impulse f ≥ 0
+/// |p_t| ≤ μ p_n,  μ p_n u_t + |u_t| p_t = 0                Coulomb: what slides is braked by all of μ p_n
+/// ```
+///
+/// A least impulse f > 0 is how restitution enters; the cone then holds for all of p. A contact that is
+/// known to slide along `s` has `p_t = −μ p_n s` instead of the second line.
+#[derive(Debug, Clone)]
+pub struct Coulomb<'a> {
+    /// W, scaled to a diagonal near 1, positive semidefinite [-].
+    pub w: &'a Dense,
+    /// Velocities without impulse.
+    pub q: &'a [f64],
+    /// Coefficients of friction μ, one a contact [-].
+    pub friction: &'a [f64],
+    /// Least normal impulses f, one a contact.
+    pub floor: &'a [f64],
+    /// Directions of sliding where they are known, unit, in the contact's tangents [-].
+    pub slide: &'a [Option<[f64; 2]>],
+}
+
+impl Coulomb<'_> {
+    /// Number of contacts.
+    pub fn contacts(&self) -> usize {
+        self.friction.len()
+    }
+
+    /// The point of the admissible impulses of contact `i` nearest to `p`: a cone cut off below f. For a
+    /// contact that slides, the point of its ray with the same normal part.
+    pub fn admissible(&self, i: usize, p: [f64; 3]) -> [f64; 3] {
+        let (mu, floor) = (self.friction[i], self.floor[i]);
+        if let Some(s) = self.slide[i] {
+            let n = p[0].max(floor);
+            return [n, -mu * n * s[0], -mu * n * s[1]];
+        }
+        let t = libm::hypot(p[1], p[2]);
+        let n = if t <= mu * p[0] { p[0] } else { ((p[0] + mu * t) / (1.0 + mu * mu)).max(0.0) };
+        let n = n.max(floor);
+        let shrink = if t > mu * n { mu * n / t } else { 1.0 };
+        [n, shrink * p[1], shrink * p[2]]
+    }
+
+    /// The largest entry of the natural map `p − P(p − u − μ |u_t| n)`, P the nearest admissible point
+    /// (De Saxcé & Feng 1998): 0 exactly at a solution.
+    pub fn residual(&self, p: &[f64]) -> f64 {
+        let u = self.w.times_plus(p, self.q);
+        let mut worst = 0.0f64;
+        for i in 0..self.contacts() {
+            let (p, u) = (triple(p, i), triple(&u, i));
+            let push = if self.slide[i].is_some() { 0.0 } else { self.friction[i] * libm::hypot(u[1], u[2]) };
+            let nearest = self.admissible(i, [p[0] - u[0] - push, p[1] - u[1], p[2] - u[2]]);
+            for k in 0..3 {
+                worst = worst.max((p[k] - nearest[k]).abs());
+            }
+        }
+        worst
+    }
+
+    /// The size that residuals are measured in: the largest velocity or least impulse.
+    fn scale(&self) -> f64 {
+        largest(self.q).max(largest(self.floor))
+    }
+
+    /// The answer with its impulses made admissible and its residual.
+    fn certify(&self, p: &[f64]) -> Solution {
+        let mut impulse = p.to_vec();
+        for i in 0..self.contacts() {
+            let p = triple(p, i);
+            let mu = self.friction[i];
+            let n = p[0].max(self.floor[i]);
+            let t = libm::hypot(p[1], p[2]);
+            let shrink = if t > mu * n { mu * n / t } else { 1.0 };
+            impulse[3 * i..3 * i + 3].copy_from_slice(&[n, shrink * p[1], shrink * p[2]]);
+        }
+        let residual = self.residual(&impulse) / self.scale();
+        Solution { impulse, residual }
+    }
+
+    /// The least-norm impulses that stop every contact.
+    fn grip(&self) -> Vec<f64> {
+        let stop: Vec<f64> = self.q.iter().map(|q| -q).collect();
+        least_norm(self.w, &stop)
+    }
+
+    /// Solves the problem by the ladder of the [module](self).
+    pub fn solve(&self) -> Solution {
+        if self.scale() == 0.0 {
+            return Solution { impulse: vec![0.0; self.q.len()], residual: 0.0 };
+        }
+        let grip = self.grip();
+        let mut best = self.certify(&grip);
+        if best.residual <= CERTIFIED {
+            return best;
+        }
+        for start in [best.impulse.clone(), vec![0.0; self.q.len()]] {
+            best = best.or(self.certify(&newton::solve(self, &start, newton::ROUNDS)));
+            if best.residual <= CERTIFIED {
+                return best;
+            }
+        }
+        best.or(splitting::solve(self))
+    }
+}
+
+/// The three entries of contact `i`.
+#[inline]
+pub(super) fn triple(x: &[f64], i: usize) -> [f64; 3] {
+    [x[3 * i], x[3 * i + 1], x[3 * i + 2]]
+}
