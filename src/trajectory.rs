@@ -44,13 +44,13 @@ pub struct Event {
     pub kind: EventKind,
     /// The two bodies a and b, as places in the scene.
     pub bodies: [usize; 2],
-    /// Where the impulse acts [m]: the point of contact, or the centroid of several.
+    /// Where the impulse acts [m]: the point of contact, or the centroid of several, weighted by their impulses.
     pub point: Vector3,
     /// Unit normal from a to b.
     pub normal: Vector3,
     /// Impulse on b [N·s]; −1 times that on a.
     pub impulse: Vector3,
-    /// What of b touched, in words.
+    /// Which features of a and b touched, in words.
     pub features: String,
     /// Rounds that the finder took to locate it.
     pub iterations: u32,
@@ -58,6 +58,10 @@ pub struct Event {
     pub velocity: [Vector3; 2],
     /// Angular velocity of b before and after [rad/s].
     pub angular_velocity: [Vector3; 2],
+    /// Velocity of a's centre of mass before and after [m/s].
+    pub other_velocity: [Vector3; 2],
+    /// Angular velocity of a before and after [rad/s].
+    pub other_angular_velocity: [Vector3; 2],
     /// Kinetic energy lost [J].
     pub energy_lost: f64,
 }

@@ -8,6 +8,7 @@ use crate::math::Vector3;
 
 /// A box along the world's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Aabb {
     /// Its lowest corner [m].
     pub low: Vector3,

@@ -12,6 +12,8 @@ pub struct Found {
     pub outcome: Outcome,
     /// When: the impact, or the end of what was searched [s].
     pub time: f64,
+    /// Up to when nothing else is to be found [s]: of a graze where the gap has opened again, else `time`.
+    pub until: f64,
     /// Rounds of the finder.
     pub iterations: u32,
     /// Evaluations of the gap.
@@ -24,14 +26,14 @@ pub(super) type Next = fn(bracket: [(f64, f64); 2], eps: f64, round: u32) -> f64
 /// Finds the impact in 0..=`h` [s], given the gap [m] as a function of time from the start. Accepted
 /// is only a gap in 0..=`eps` [m], never an overlap.
 pub(super) fn find(gap: &mut dyn FnMut(f64) -> f64, h: f64, eps: f64, next: Next) -> Found {
-    let mut found = Found { outcome: Outcome::Clear, time: h, iterations: 0, queries: 0 };
+    let mut found = Found { outcome: Outcome::Clear, time: h, until: h, iterations: 0, queries: 0 };
     let mut queries = 0;
     let mut look = |t: f64| {
         queries += 1;
         gap(t)
     };
     (found.outcome, found.time) = search(&mut look, h, eps, next, &mut found.iterations);
-    found.queries = queries;
+    (found.queries, found.until) = (queries, found.time);
     found
 }
 

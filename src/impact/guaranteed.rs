@@ -195,7 +195,7 @@ impl<'a> Search<'a> {
                 }
                 Phase::Leaving(_) if gap > eps_here => phase = Phase::Free,
                 Phase::Grazing(since) if gap > eps_here => {
-                    return Ok(self.found(Outcome::Grazing, since, round));
+                    return Ok(Found { until: t, ..self.found(Outcome::Grazing, since, round) });
                 }
                 _ => {}
             }
@@ -225,7 +225,7 @@ impl<'a> Search<'a> {
             }
             if step >= to - t {
                 let outcome = if let Phase::Grazing(since) = phase {
-                    return Ok(self.found(Outcome::Grazing, since, round));
+                    return Ok(Found { until: to, ..self.found(Outcome::Grazing, since, round) });
                 } else {
                     Outcome::Clear
                 };
@@ -242,7 +242,7 @@ impl<'a> Search<'a> {
     }
 
     fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
-        Found { outcome, time, iterations, queries: self.queries }
+        Found { outcome, time, until: time, iterations, queries: self.queries }
     }
 
     /// The closest features at `t`, and what the bounds need.

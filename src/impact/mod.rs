@@ -147,27 +147,37 @@ pub fn time_of_impact<'a, 'b>(
     }
     let (a, b) = ((a.into(), motion_a), (b.into(), motion_b));
     let eps = eps.unwrap_or(IMPACT_GAP * (a.0.size() + b.0.size()));
-    let Found { outcome, time, iterations, queries } = match finder {
-        Finder::Guaranteed => first_impact(a, b, 0.0, t_max, eps)?,
-        Finder::Bisection | Finder::Secant => {
-            // the first pose that cannot be queried is remembered: the finders see numbers only
-            let (mut cache, mut refused) = (PairCache::new(), None);
-            let gap = |t: f64| match between(a, b, t, &mut cache) {
-                Ok(closest) => closest.signed_distance,
-                Err(error) => {
-                    refused.get_or_insert(error);
-                    f64::NAN
-                }
-            };
-            let found = find_impact(gap, t_max, eps, finder);
-            if let Some(error) = refused {
-                return Err(error);
-            }
-            found
-        }
-    };
+    let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps)?;
     let closest = between(a, b, time, &mut PairCache::new())?;
     Ok(Impact { outcome, time, iterations, queries, closest })
+}
+
+/// The search over `from..=to` [s] by any finder.
+pub(crate) fn first_impact_by(
+    finder: Finder,
+    a: (Collidable<'_>, &dyn Moving),
+    b: (Collidable<'_>, &dyn Moving),
+    from: f64,
+    to: f64,
+    eps: f64,
+) -> Result<Found> {
+    if finder == Finder::Guaranteed {
+        return first_impact(a, b, from, to, eps);
+    }
+    // the first pose that cannot be queried is remembered: the finders see numbers only
+    let (mut cache, mut refused) = (PairCache::new(), None);
+    let gap = |t: f64| match between(a, b, from + t, &mut cache) {
+        Ok(closest) => closest.signed_distance,
+        Err(error) => {
+            refused.get_or_insert(error);
+            f64::NAN
+        }
+    };
+    let found = find_impact(gap, to - from, eps, finder);
+    match refused {
+        Some(error) => Err(error),
+        None => Ok(Found { time: from + found.time, until: from + found.until, ..found }),
+    }
 }
 
 /// The guaranteed search over `from..=to` [s]: of bodies of several pieces, the earliest impact of two.
@@ -178,7 +188,7 @@ pub(crate) fn first_impact(
     to: f64,
     eps: f64,
 ) -> Result<Found> {
-    let mut first = Found { outcome: Outcome::Clear, time: to, iterations: 0, queries: 0 };
+    let mut first = Found { outcome: Outcome::Clear, time: to, until: to, iterations: 0, queries: 0 };
     for i in 0..a.pieces() {
         for j in 0..b.pieces() {
             let mut cache = PairCache::new();
@@ -187,7 +197,7 @@ pub(crate) fn first_impact(
             first.iterations += found.iterations;
             first.queries += found.queries;
             if found.outcome != Outcome::Clear && (first.outcome == Outcome::Clear || found.time < first.time) {
-                (first.outcome, first.time) = (found.outcome, found.time);
+                (first.outcome, first.time, first.until) = (found.outcome, found.time, found.until);
             }
             if first.time <= from {
                 return Ok(first);

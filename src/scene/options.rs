@@ -138,7 +138,7 @@ impl Default for RunOptions {
             length_scale: None,
             orientation: Orientation::Quaternion,
             projection: true,
-            finder: Finder::Secant,
+            finder: Finder::Guaranteed,
             eps: None,
         }
     }

@@ -160,7 +160,7 @@ impl Plan {
             run.report.seconds.estimate = before - began;
 
             // one run is enough where nobody asks for its error, or where rounding is all there is
-            let closed = plan.groups().iter().all(|group| group.method == Method::Exact && group.pairs.is_empty());
+            let closed = plan.groups().iter().all(|group| group.method == Method::Exact && !group.meets);
             if closed && estimates {
                 run.report.error_estimate = Some(self.rounding(span));
                 run.report.estimated_by = "rounding of the closed form".into();
@@ -373,40 +373,53 @@ fn pass(
         trajectory: None,
     };
     let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
+    let lanes = simulation.lanes.len();
     let mut run = Trajectory::new(plan.clone(), times.to_vec());
     for (group, spec) in plan.groups().iter().enumerate() {
         let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
         run.phases.push(plan.phase(group, span.start, &motions, &[]).map_err(refused)?);
     }
 
+    // those that may meet go by events; the others each on its own
     let mut broken: Option<SimulationError> = None;
-    let lanes = simulation.lanes.len();
-    for lane in 0..lanes {
+    let alone = simulation.lanes_alone();
+    let part = |lanes: usize| lanes as f64 / lanes as f64;
+    let meeting = lanes - alone.len();
+    if meeting > 0 {
+        let mut tell = |done: f64| observer(Progress { fraction: part(meeting) * done, pass: number });
+        broken = simulation.advance_meeting(span.end, &mut Some(&mut run), &mut tell).err();
+    }
+    for (k, &lane) in alone.iter().enumerate() {
+        if broken.as_ref().is_some_and(|error| error.kind == Failure::Interrupted) {
+            break;
+        }
         let to = broken.as_ref().map_or(span.end, |error| error.time);
-        let mut record = Some(&mut run);
-        let mut ended = simulation.answer_touches(lane, 0, &mut record);
+        let mut ended = Ok(());
         while ended.is_ok() && simulation.lanes[lane].flight.front() < to {
-            ended = simulation.step_lane(lane, &mut record);
+            ended = simulation.step_lane(lane, &mut Some(&mut run));
             let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
-            let progress = Progress { fraction: (lane as f64 + done) / lanes as f64, pass: number };
+            let progress = Progress { fraction: part(meeting + k) + part(1) * done, pass: number };
             if observer(progress).is_break() {
                 let time = simulation.lanes[lane].flight.front();
                 ended = Err(simulation.failure(lane, time, Failure::Interrupted));
             }
         }
+        if let Err(error) = ended
+            && broken.as_ref().is_none_or(|other| error.time < other.time)
+        {
+            broken = Some(error);
+        }
+    }
+    let to = broken.as_ref().map_or(span.end, |error| error.time);
+    for lane in 0..lanes {
+        // a step that was still open where a run broke off is known up to there
+        if simulation.finish_step(lane, &mut Some(&mut run)).is_err() {
+            continue;
+        }
         let lane = &mut simulation.lanes[lane];
         let mut motions = lane.motions.clone();
         lane.flight.at(lane.flight.front(), &mut motions);
         run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
-        if let Err(error) = ended {
-            let stop = error.kind == Failure::Interrupted;
-            if broken.as_ref().is_none_or(|other| error.time < other.time) {
-                broken = Some(error);
-            }
-            if stop {
-                break;
-            }
-        }
     }
 
     run.report.counts = simulation.counts();

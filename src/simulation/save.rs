@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::near::{Due, Window};
 use super::{Lane, Simulation};
 use crate::error::{Error, Result};
 use crate::integrator::{Control, Counts, Front, Segment};
@@ -20,6 +21,8 @@ struct Saved {
     options: RunOptions,
     time: f64,
     lanes: Vec<SavedLane>,
+    windows: Vec<Option<Window>>,
+    due: Vec<Due>,
     events: Vec<Event>,
     iterations: u64,
 }
@@ -31,12 +34,14 @@ struct SavedLane {
     segment: Segment,
     counts: Counts,
     earlier: Counts,
+    number: u64,
+    pending: Option<f64>,
     held: Vec<usize>,
     motions: Vec<BodyMotion>,
 }
 
 /// Version of the file's layout.
-const VERSION: &str = "state 2";
+const VERSION: &str = "state 3";
 
 impl Simulation {
     /// Writes the running state to a file, conventionally `.bryla`.
@@ -50,6 +55,9 @@ impl Simulation {
             segment: lane.flight.segment().clone(),
             counts: *lane.flight.counts(),
             earlier: lane.earlier,
+            number: lane.number,
+            // a switch that never comes has no number in a file
+            pending: lane.pending.map(|switch| switch.min(f64::MAX)),
             held: lane.held.clone(),
             motions: lane.motions.clone(),
         });
@@ -59,6 +67,8 @@ impl Simulation {
             options: self.plan.options().clone(),
             time: self.time,
             lanes: lanes.collect(),
+            windows: self.near.windows.clone(),
+            due: self.near.due.clone().into_sorted_vec(),
             events: self.events.clone(),
             iterations: self.iterations,
         };
@@ -89,6 +99,7 @@ impl Simulation {
             lane.continue_from(&plan, group, step, saved)
                 .ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
         }
+        simulation.near.restore(saved.windows, saved.due);
         simulation.events = saved.events;
         simulation.iterations = saved.iterations;
         Ok(simulation)
@@ -117,6 +128,11 @@ impl Lane {
         }
         self.flight.resume(&saved.front, saved.segment, saved.counts);
         self.earlier = saved.earlier;
+        self.charts = match plan.charts(group, &saved.held) {
+            Ok(charts) => charts,
+            Err(error) => return Some(Err(error)),
+        };
+        (self.number, self.pending) = (saved.number, saved.pending);
         self.held = saved.held;
         self.motions = saved.motions;
         Some(Ok(()))
