@@ -7,7 +7,8 @@
 //! ```
 //!
 //! A second cone for the restitution alone, or none, would leave a sliding ball too fast by exactly `μ e u_n`.
-//! Newton's law asks for `u_n ≥ −e u_n⁻` instead of the impulse.
+//! Newton's law asks for `u_n ≥ −e u_n⁻` instead of the impulse. Several contacts with friction may have no
+//! such motion, or one that makes energy; then Poisson's impulse is taken.
 //!
 //! Several contacts are answered in the rounds of [`reflection`](super::reflection), and a mixture of
 //! restitutions in the same slices; what is mixed are normal impulses, then friction is solved once for all
@@ -42,10 +43,16 @@ pub(super) struct Rubbed {
     pub(super) kept: f64,
 }
 
-/// Halvings of the part of the restitution [-]: to its last digit.
-const HALVINGS: usize = 52;
+/// Halvings of the part of the restitution [-]: to 1e-12 of it.
+const HALVINGS: usize = 40;
 /// Energy that counts as none, as a fraction of `qᵀq` [-]: rounding of the sums.
 const GAIN: f64 = 1.0e-14;
+
+/// Residual above which a wish counts as not met [-]: the solvers end at 1e-11 or orders of magnitude above.
+const MET: f64 = 1.0e-9;
+
+/// Plastic impacts of what a solver has left [-].
+const STOPS: usize = 8;
 
 /// What the restitution asks for.
 enum Wish {
@@ -55,15 +62,6 @@ enum Wish {
     Velocity(Vec<f64>),
 }
 
-impl Wish {
-    fn scaled(&self, from: &[f64], part: f64) -> Self {
-        match self {
-            Self::Impulse(p) => Self::Impulse(p.iter().zip(from).map(|(p, f)| f + part * (p - f)).collect()),
-            Self::Velocity(u) => Self::Velocity(u.iter().map(|u| part * u).collect()),
-        }
-    }
-}
-
 impl Rubbing<'_> {
     /// The answer with these restitutions.
     pub(super) fn answer(&self, restitution: &[f64]) -> Rubbed {
@@ -71,6 +69,8 @@ impl Rubbing<'_> {
         let (plastic, mut residual) = self.impact(&Wish::Impulse(vec![0.0; n]));
         let mut rounds = 1;
         if restitution.iter().all(|&e| e == 0.0) {
+            let mut plastic = plastic;
+            self.stop(&mut plastic);
             return Rubbed { impulse: plastic, residual, rounds, kept: 1.0 };
         }
 
@@ -91,15 +91,27 @@ impl Rubbing<'_> {
                 speeds[i] += weight * u[3 * i];
             }
         }
-        let wish = match self.law {
-            Law::Poisson | Law::Stronge => Wish::Impulse(impulses),
-            Law::Newton => Wish::Velocity(
-                speeds.iter().zip(&impulses).map(|(u, p)| if *p > 0.0 { u.max(0.0) } else { 0.0 }).collect(),
-            ),
-        };
+        let returned = |(u, p): (&f64, &f64)| if *p > 0.0 { u.max(0.0) } else { 0.0 };
+        let speeds = speeds.iter().zip(&impulses).map(returned).collect();
         let limit = (self.law == Law::Stronge).then(|| self.stronge_limit(&plastic, restitution));
-        let (impulse, last, kept) = self.restore(&plastic, &wish, limit);
+        let (mut impulse, last, kept) = self.restore(&plastic, &impulses, speeds, limit);
+        self.stop(&mut impulse);
         Rubbed { impulse, residual: residual.max(last), rounds: rounds + 1, kept }
+    }
+
+    /// Stops what still approaches, where a solver has ended short of its mark: each plastic impact of the
+    /// rest makes it smaller, keeps the cone and makes no energy.
+    fn stop(&self, p: &mut [f64]) {
+        for _ in 0..STOPS {
+            let u = self.w.times_plus(p, self.q);
+            if (0..self.friction.len()).all(|i| u[3 * i] >= -self.noise[i]) {
+                return;
+            }
+            let (rest, _) = Rubbing { q: &u, ..*self }.impact(&Wish::Impulse(vec![0.0; self.friction.len()]));
+            for (p, s) in p.iter_mut().zip(&rest) {
+                *p += s;
+            }
+        }
     }
 
     /// Rounds of elastic pairs of phases over the approaching contacts.
@@ -125,13 +137,9 @@ impl Rubbing<'_> {
             let (stop, residual) = part.impact(&Wish::Impulse(vec![0.0; approaching.len()]));
             let back = |i: usize| if elastic[approaching[i]] { 1.0 } else { 0.0 };
             let count = approaching.len();
-            let wish = match self.law {
-                Law::Poisson | Law::Stronge => {
-                    Wish::Impulse((0..count).map(|i| (1.0 + back(i)) * stop[3 * i]).collect())
-                }
-                Law::Newton => Wish::Velocity((0..count).map(|i| -back(i) * q[3 * i]).collect()),
-            };
-            let (pair, last, _) = part.restore(&stop, &wish, None);
+            let impulses: Vec<f64> = (0..count).map(|i| (1.0 + back(i)) * stop[3 * i]).collect();
+            let speeds = (0..count).map(|i| -back(i) * q[3 * i]).collect();
+            let (pair, last, _) = part.restore(&stop, &impulses, speeds, None);
             worst = worst.max(residual).max(last);
             for (&r, x) in rows.iter().zip(&pair) {
                 p[r] += x;
@@ -167,24 +175,34 @@ impl Rubbing<'_> {
         (found.impulse, found.residual)
     }
 
-    /// The largest part of the restitution that makes no energy and gives back no more than `limit`.
-    fn restore(&self, plastic: &[f64], wish: &Wish, limit: Option<f64>) -> (Vec<f64>, f64, f64) {
-        let normal: Vec<f64> = plastic.iter().step_by(3).copied().collect();
+    /// The restitution that the law asks for: Newton's normal velocities where they can be met without
+    /// making energy, else the normal impulses, of which the largest part is taken that makes none and gives
+    /// back no more than `limit`.
+    fn restore(&self, plastic: &[f64], impulses: &[f64], speeds: Vec<f64>, limit: Option<f64>) -> (Vec<f64>, f64, f64) {
         let slack = GAIN * dot(self.q, self.q);
-        let fits = |p: &[f64]| {
-            energy_change(self.w, self.q, p) <= slack
+        let fits = |p: &[f64], residual: f64| {
+            residual <= MET
+                && energy_change(self.w, self.q, p) <= slack
                 && limit.is_none_or(|limit| self.given_back(plastic, p) <= limit + slack)
         };
-        let (whole, residual) = self.impact(wish);
-        if fits(&whole) {
+        if self.law == Law::Newton {
+            let (whole, residual) = self.impact(&Wish::Velocity(speeds));
+            if fits(&whole, residual) {
+                return (whole, residual, 1.0);
+            }
+        }
+        let (whole, residual) = self.impact(&Wish::Impulse(impulses.to_vec()));
+        if fits(&whole, residual) {
             return (whole, residual, 1.0);
         }
         let (mut low, mut high) = (0.0, 1.0);
         let mut best = (plastic.to_vec(), 0.0, 0.0);
         for _ in 0..HALVINGS {
             let part = 0.5 * (low + high);
-            let (p, residual) = self.impact(&wish.scaled(&normal, part));
-            if fits(&p) {
+            let normal = plastic.iter().step_by(3);
+            let wish = normal.zip(impulses).map(|(stop, p)| stop + part * (p - stop)).collect();
+            let (p, residual) = self.impact(&Wish::Impulse(wish));
+            if fits(&p, residual) {
                 low = part;
                 best = (p, residual, part);
             } else {

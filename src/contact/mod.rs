@@ -1,10 +1,13 @@
 //! What happens when a body touches a fixed plane: it bounces, or it sticks (lecture §7).
 
+pub mod accumulation;
 pub mod bounce;
 pub mod broad_phase;
 pub mod cluster;
 pub mod collision;
 mod friction;
+pub mod manifold;
+mod patch;
 mod reflection;
 pub mod solver;
 pub mod stick;

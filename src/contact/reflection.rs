@@ -33,8 +33,12 @@ pub(super) struct Reflected {
     pub(super) rounds: u32,
 }
 
-/// Rounds of reflections for `n` contacts [-]: a row of n balls needs n. Elastic rounds end by themselves;
-/// where a mixture would go on for ever, the plastic answer ends it.
+/// Rounds of purely elastic reflections [-]: they end by themselves, mostly after one for each contact, in
+/// wedges after π over the angle (Smith et al. 2012, §4). What is left then is stopped, and loses energy.
+const ELASTIC_ROUNDS: u32 = 4096;
+
+/// Rounds for `n` contacts where some are plastic, or rub [-]: these may go on for ever, ever weaker, and the
+/// plastic answer ends them.
 pub(super) fn rounds_for(n: usize) -> u32 {
     u32::try_from(16 + 8 * n).unwrap_or(u32::MAX)
 }
@@ -58,6 +62,11 @@ pub(super) fn slices(restitution: &[f64]) -> Vec<(f64, Vec<bool>)> {
 /// The mixture of answers for the scaled problem `u = W p + q`; `noise` is the approach [scaled] that
 /// rounding alone may leave at each contact.
 pub(super) fn reflect(w: &Dense, q: &[f64], restitution: &[f64], noise: &[f64]) -> Reflected {
+    // one contact has the formula that all of this comes to
+    if let (&[speed], &[e]) = (q, restitution) {
+        let impulse = if speed < 0.0 { -(1.0 + e) * speed / w.at(0, 0) } else { 0.0 };
+        return Reflected { impulse: vec![impulse], residual: 0.0, rounds: 1 };
+    }
     let mut mixed = Reflected { impulse: vec![0.0; q.len()], residual: 0.0, rounds: 0 };
     for (weight, elastic) in slices(restitution) {
         let answer = answer(w, q, &elastic, noise);
@@ -77,7 +86,8 @@ fn answer(w: &Dense, q: &[f64], elastic: &[bool], noise: &[f64]) -> Reflected {
     let mut worst = 0.0f64;
     let mut rounds = 0;
     if elastic.contains(&true) {
-        for round in 1..=rounds_for(n) {
+        let limit = if elastic.contains(&false) { rounds_for(n) } else { ELASTIC_ROUNDS };
+        for round in 1..=limit {
             let u = w.times_plus(&p, q);
             let approaching: Vec<usize> = (0..n).filter(|&i| u[i] < -noise[i]).collect();
             if approaching.is_empty() {
@@ -101,13 +111,24 @@ fn answer(w: &Dense, q: &[f64], elastic: &[bool], noise: &[f64]) -> Reflected {
     }
 
     // the plastic answer: of everything, or of what the rounds have left
-    let u = w.times_plus(&p, q);
-    let stop = active_set::solve(w, &u);
-    for (p, s) in p.iter_mut().zip(&stop.impulse) {
-        *p += s;
+    let mut stops = 0;
+    loop {
+        let u = w.times_plus(&p, q);
+        let stop = active_set::solve(w, &u);
+        for (p, s) in p.iter_mut().zip(&stop.impulse) {
+            *p += s;
+        }
+        worst = worst.max(if stops == 0 { stop.residual } else { 0.0 });
+        stops += 1;
+        let done = w.times_plus(&p, q).iter().zip(noise).all(|(u, noise)| *u >= -noise);
+        if done || stops == STOPS {
+            return Reflected { impulse: p, residual: worst, rounds: rounds + 1 };
+        }
     }
-    Reflected { impulse: p, residual: worst.max(stop.residual), rounds: rounds + 1 }
 }
+
+/// Plastic answers to what the first has left by rounding [-]: each leaves a small part of it.
+const STOPS: usize = 4;
 
 /// The energy that impulses leave in the contacts, `p·q + ½ pᵀ W p` [J]: not above 0 where none is made.
 pub(super) fn energy_change(w: &Dense, q: &[f64], p: &[f64]) -> f64 {

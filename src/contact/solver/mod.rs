@@ -11,8 +11,8 @@
 //! | [`splitting`] | the same where Newton's method fails, by a slow and sure splitting |
 //! | [`dense`] | the linear algebra beneath |
 //!
-//! [`Coulomb::solve`] is the ladder: all contacts grip; Newton from there; the splitting with Newton as its
-//! last step. What comes out is the first answer whose residual is at most [`CERTIFIED`], else the best.
+//! [`Coulomb::solve`] is the ladder: all contacts grip; Newton from there and from nothing; the splitting with
+//! Newton as its last step; Newton on other branches. What comes out is the first answer whose residual is at most [`CERTIFIED`], else the best.
 
 pub mod active_set;
 pub mod dense;
@@ -25,6 +25,9 @@ use dense::{Dense, largest, least_norm};
 /// leaves 1e-16 times the condition number of the contacts, mass ratios of 1e4 leave 1e-12. Larger: worse
 /// answers pass. Smaller: the next solver is asked in vain.
 pub const CERTIFIED: f64 = 1.0e-11;
+
+/// The ρ of Newton's method that are tried where ρ = 1 and the splitting have failed [-].
+const OTHER_BRANCHES: [f64; 4] = [0.1, 10.0, 0.01, 100.0];
 
 /// Impulses, and how far they are from solving the problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,13 +142,22 @@ impl Coulomb<'_> {
         if best.residual <= CERTIFIED {
             return best;
         }
-        for start in [best.impulse.clone(), vec![0.0; self.q.len()]] {
-            best = best.or(self.certify(&newton::solve(self, &start, newton::ROUNDS)));
+        let mut starts = vec![best.impulse.clone(), vec![0.0; self.q.len()]];
+        for start in &starts {
+            best = best.or(self.certify(&newton::solve(self, start, newton::ROUNDS, 1.0)));
             if best.residual <= CERTIFIED {
                 return best;
             }
         }
-        best.or(splitting::solve(self))
+        best = best.or(splitting::solve(self));
+        starts.push(best.impulse.clone());
+        for (start, rho) in starts.iter().flat_map(|s| OTHER_BRANCHES.map(|rho| (s, rho))) {
+            if best.residual <= CERTIFIED {
+                break;
+            }
+            best = best.or(self.certify(&newton::solve(self, start, newton::ROUNDS, rho)));
+        }
+        best
     }
 }
 

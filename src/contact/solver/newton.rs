@@ -1,13 +1,13 @@
 //! Contact with Coulomb friction by Newton's method on Alart and Curnier's equations (1991).
 //!
 //! ```text
-//! y = p_n − u_n       d = p_t − u_t
+//! y = p_n − ρ u_n     d = p_t − ρ u_t     any ρ > 0
 //! F_n = p_n − max(f, y)
 //! F_t = p_t − d min(1, R/|d|)         R = μ max(f, y)
 //! ```
 //!
-//! F is 0 exactly at a solution, and piecewise smooth: near one the method ends in a few rounds at
-//! rounding. Each step is the shortest that solves the linearised equations, so that redundant contacts
+//! F is 0 exactly at a solution, whatever ρ, and piecewise smooth: near one the method ends in a few rounds
+//! at rounding; ρ decides which branch a start is on. Each step is the shortest that solves the linearised equations, so that redundant contacts
 //! share what they carry and symmetry is kept. It may cycle far from a solution; the rounds are bounded and
 //! the best iterate is returned.
 
@@ -19,18 +19,18 @@ pub const ROUNDS: usize = 40;
 /// Halvings of a step that does not lower F [-].
 const HALVINGS: usize = 6;
 
-/// Up to `rounds` steps from `start`; returns the iterate of least F.
-pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize) -> Vec<f64> {
+/// Up to `rounds` steps from `start` with this ρ; returns the iterate of least F.
+pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize, rho: f64) -> Vec<f64> {
     let scale = problem.scale();
     let mut p = start.to_vec();
-    let mut f = equations(problem, &p);
+    let mut f = equations(problem, &p, rho);
     let mut best = (p.clone(), largest(&f));
     for _ in 0..rounds {
         if largest(&f) <= 4.0 * f64::EPSILON * scale {
             break;
         }
         let minus: Vec<f64> = f.iter().map(|f| -f).collect();
-        let step = least_norm(&slope(problem, &p), &minus);
+        let step = least_norm(&slope(problem, &p, rho), &minus);
 
         // the whole step where it helps, a part of it where that helps, else the whole all the same
         let size = norm(&f);
@@ -38,7 +38,7 @@ pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize) -> Vec<f64> {
         let mut part = 1.0;
         for _ in 0..HALVINGS {
             let next: Vec<f64> = p.iter().zip(&step).map(|(p, s)| p + part * s).collect();
-            let next_f = equations(problem, &next);
+            let next_f = equations(problem, &next, rho);
             let next_size = norm(&next_f);
             if found.is_none() || next_size < size {
                 found = Some((next, next_f));
@@ -65,11 +65,11 @@ fn norm(f: &[f64]) -> f64 {
 }
 
 /// Alart and Curnier's F.
-fn equations(problem: &Coulomb<'_>, p: &[f64]) -> Vec<f64> {
+fn equations(problem: &Coulomb<'_>, p: &[f64], rho: f64) -> Vec<f64> {
     let u = problem.w.times_plus(p, problem.q);
     let mut f = vec![0.0; p.len()];
     for i in 0..problem.contacts() {
-        let (p, u) = (triple(p, i), triple(&u, i));
+        let (p, u) = (triple(p, i), triple(&u, i).map(|u| rho * u));
         let normal = (p[0] - u[0]).max(problem.floor[i]);
         f[3 * i] = p[0] - normal;
         let reach = problem.friction[i] * normal;
@@ -88,16 +88,16 @@ fn equations(problem: &Coulomb<'_>, p: &[f64]) -> Vec<f64> {
 }
 
 /// The derivative of F, of the branch that p is on: rows `∂F/∂p + ∂F/∂u W`.
-fn slope(problem: &Coulomb<'_>, p: &[f64]) -> Dense {
+fn slope(problem: &Coulomb<'_>, p: &[f64], rho: f64) -> Dense {
     let (n, w) = (p.len(), problem.w);
     let u = w.times_plus(p, problem.q);
     let mut g = Dense::zeros(n);
-    // adds `factor · d(p_k − u_k)` to a row
+    // adds `factor · d(p_k − ρ u_k)` to a row
     let add = |g: &mut Dense, row: usize, k: usize, factor: f64| {
         if factor != 0.0 {
             for c in 0..n {
                 let own = if c == k { 1.0 } else { 0.0 };
-                g.set(row, c, g.at(row, c) + factor * (own - w.at(k, c)));
+                g.set(row, c, g.at(row, c) + factor * (own - rho * w.at(k, c)));
             }
         }
     };
@@ -106,7 +106,7 @@ fn slope(problem: &Coulomb<'_>, p: &[f64]) -> Dense {
         for k in 0..3 {
             g.set(row + k, row + k, 1.0);
         }
-        let (p, u) = (triple(p, i), triple(&u, i));
+        let (p, u) = (triple(p, i), triple(&u, i).map(|u| rho * u));
         let closed = p[0] - u[0] > problem.floor[i];
         let mu = problem.friction[i];
         let reach = mu * (p[0] - u[0]).max(problem.floor[i]);

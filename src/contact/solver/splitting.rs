@@ -51,7 +51,7 @@ pub fn solve(problem: &Coulomb<'_>) -> Solution {
 
         if round % BETWEEN == 0 {
             best = best.or(problem.certify(&z));
-            best = best.or(problem.certify(&newton::solve(problem, &z, newton::ROUNDS / 2)));
+            best = best.or(problem.certify(&newton::solve(problem, &z, newton::ROUNDS / 2, 1.0)));
             if best.residual <= CERTIFIED {
                 break;
             }
