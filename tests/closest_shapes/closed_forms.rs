@@ -56,7 +56,7 @@ fn capsules_by_their_axes() {
     let capsule = Capsule::new(0.25, 1.0);
     let s = std::f64::consts::FRAC_1_SQRT_2;
     let lying = Pose::new([1.5, 0.25, 0.5], [s, 0.0, s, 0.0]);
-    let found = expect(query(capsule, &at(0.0, 0.0, 0.0), capsule, &lying), 0.5f64.hypot(0.25) - 0.5);
+    let found = expect(query(capsule, &at(0.0, 0.0, 0.0), capsule, &lying), libm::hypot(0.5, 0.25) - 0.5);
     assert_eq!((found.feature_a, found.feature_b), (Feature::Surface(2), Feature::Surface(0)));
     // axes that cross in their middles: any way across both
     let crossed = Pose::new([0.0; 3], [s, 0.0, s, 0.0]);

@@ -192,7 +192,7 @@ pub(crate) fn check(
     // from above, overlapping: no direction leads out sooner
     if answer.state == State::Overlapping && !has_plane {
         for k in 0..200 {
-            let spread = if k % 2 == 0 { 10f64.powi(-i32::try_from(k).unwrap() / 20) } else { 1e3 };
+            let spread = if k % 2 == 0 { libm::exp10(-f64::from(k / 20)) } else { 1e3 };
             let d = (answer.normal + spread * r.direction()).normalize();
             let d: V = std::array::from_fn(|k| dd(d[k]));
             let length = root(dot(&d, &d));
