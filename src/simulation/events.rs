@@ -5,16 +5,18 @@ use std::ops::ControlFlow;
 use super::near::{Due, What};
 use super::path::Path;
 use super::{Failure, Simulation, SimulationError};
-use crate::closest::{Accuracy, ClosestFeatures, PairCache, closest_features};
+use crate::closest::{Accuracy, ClosestFeatures, Collidable, Collider, PairCache, closest_features};
 use crate::contact::broad_phase::Aabb;
 use crate::contact::cluster::{ClusterBody, Contact};
 use crate::contact::collision::{Collision, Law, collide};
-use crate::contact::{Answer, Response, stick};
+use crate::contact::manifold::{Surface, Touch, manifold};
+use crate::contact::{Answer, Material, Response, stick};
 use crate::error::Error;
 use crate::impact::{Found, Moving, Outcome, first_impact_by};
 use crate::math::sum::Time;
-use crate::math::{Pose, Vector3};
+use crate::math::{Pose, Vector3, quaternion};
 use crate::plan::EPS_ROUNDING;
+use crate::shape::Shape;
 use crate::state::BodyMotion;
 use crate::tolerance::{IMPACT_GAP, TOUCH_GAP};
 use crate::trajectory::{Event, EventKind, Trajectory};
@@ -199,7 +201,7 @@ impl Simulation {
     /// Whether the box of b, which moves, is beyond the plane of a half space a.
     fn is_beyond(&self, a: usize, b: usize) -> bool {
         let (body, aabb) = (&self.plan.bodies()[a], self.near.windows[b].and_then(|window| window.aabb));
-        let Some(crate::shape::Shape::HalfSpace(plane)) = &self.plan.scene().bodies[a].shape else { return false };
+        let Some(Shape::HalfSpace(plane)) = &self.plan.scene().bodies[a].shape else { return false };
         let Some(aabb) = aabb else { return false };
         let given = Vector3::from(plane.normal);
         let normal = body.start.rotation * (given / given.norm());
@@ -332,14 +334,7 @@ impl Simulation {
                 let places = [pair[0], pair[1]].map(|i| cluster.add(i, self.motion_at(i, time)));
                 let material = plan.material(pair[0], pair[1]);
                 let first = cluster.contacts.len();
-                for (point, normals) in self.contacts_of(pair, &cluster, &closest, reach) {
-                    cluster.contacts.push(
-                        Contact::new(places[0], places[1], point, closest.normal)
-                            .normals(normals)
-                            .friction(material.friction)
-                            .restitution(material.restitution),
-                    );
-                }
+                cluster.contacts.extend(self.contacts_of(pair, time, places, &material, reach)?);
                 let contacts = first..cluster.contacts.len();
                 cluster.touching.push(Touching { bodies: pair, closest, contacts });
             }
@@ -347,15 +342,37 @@ impl Simulation {
         Ok(cluster)
     }
 
-    /// The points in which two bodies touch, each with its normals.
+    /// The points in which two bodies touch: of every two pieces within `reach` [m] all that carry.
     fn contacts_of(
         &self,
-        _pair: [usize; 2],
-        _cluster: &Cluster,
-        closest: &ClosestFeatures,
-        _reach: f64,
-    ) -> Vec<(Vector3, Vec<Vector3>)> {
-        vec![(0.5 * (closest.point_a + closest.point_b), vec![closest.normal])]
+        pair: [usize; 2],
+        time: Time,
+        places: [usize; 2],
+        material: &Material,
+        reach: f64,
+    ) -> Result<Vec<Contact>, SimulationError> {
+        let mut contacts = Vec::new();
+        let [Some(a), Some(b)] = pair.map(|i| self.plan.bodies()[i].collider.as_deref()) else { return Ok(contacts) };
+        let [shape_a, shape_b] = pair.map(|i| self.plan.scene().bodies[i].shape.as_ref());
+        let [pose_a, pose_b] = pair.map(|i| self.pose_at(i, time));
+        let (whole_a, whole_b) = (Collidable::from(a), Collidable::from(b));
+        for i in 0..whole_a.pieces() {
+            for j in 0..whole_b.pieces() {
+                let (piece_a, piece_b) = (whole_a.piece(i), whole_b.piece(j));
+                let closest = piece_a
+                    .closest(&pose_a, &piece_b, &pose_b, &mut PairCache::new(), Accuracy::Exact)
+                    .map_err(|error| self.failure_of(&pair, time.value, Failure::Refused(error.to_string())))?;
+                if closest.signed_distance > reach {
+                    continue;
+                }
+                let surfaces = (surface(shape_a, a, i), surface(shape_b, b, j));
+                let (Some((surface_a, at_a)), Some((surface_b, at_b))) = surfaces else { continue };
+                let (at_a, at_b) = (placed(&pose_a, &at_a), placed(&pose_b, &at_b));
+                let found = manifold(&surface_a, &at_a, &surface_b, &at_b, &Touch::from(&closest), reach);
+                contacts.extend(found.contacts(places[0], places[1], material.friction, material.restitution));
+            }
+        }
+        Ok(contacts)
     }
 
     /// The velocities after the impact of a cluster.
@@ -560,4 +577,43 @@ impl Cluster {
 fn in_words(closest: &ClosestFeatures) -> String {
     let name = |feature: crate::closest::Feature| format!("{} {}", feature.kind(), feature.index());
     format!("{}, {}", name(closest.feature_a), name(closest.feature_b))
+}
+
+/// The surface of a body's piece, and where it stands in the body's shape.
+fn surface<'a>(shape: Option<&'a Shape>, collider: &'a Collider, piece: usize) -> Option<(Surface<'a>, Pose)> {
+    let (shape, pose) = piece_of(shape?, piece, Pose::identity()).ok()?;
+    let surface = match shape {
+        Shape::HalfSpace(shape) => Surface::HalfSpace(shape),
+        Shape::Sphere(shape) => Surface::Sphere(shape),
+        Shape::Cylinder(shape) => Surface::Cylinder(shape),
+        Shape::Capsule(shape) => Surface::Capsule(shape),
+        Shape::Cone(shape) => Surface::Cone(shape),
+        Shape::Ellipsoid(shape) => Surface::Ellipsoid(shape),
+        _ => Surface::Polyhedron(collider.polyhedron(piece)?),
+    };
+    Some((surface, pose))
+}
+
+/// The convex piece of this number, nested ones in order; else how many there are.
+fn piece_of<'a>(shape: &'a Shape, number: usize, pose: Pose) -> Result<(&'a Shape, Pose), usize> {
+    let Shape::Compound(compound) = shape else {
+        return if number == 0 { Ok((shape, pose)) } else { Err(1) };
+    };
+    let mut before = 0;
+    for piece in &compound.pieces {
+        let inner = Pose::new(piece.position, piece.orientation);
+        match piece_of(&piece.shape, number - before, placed(&pose, &inner)) {
+            Ok(found) => return Ok(found),
+            Err(count) => before += count,
+        }
+    }
+    Err(before)
+}
+
+/// A frame given in another.
+fn placed(outer: &Pose, inner: &Pose) -> Pose {
+    Pose {
+        position: outer.point(&inner.position),
+        orientation: quaternion::normalized(&(outer.orientation * inner.orientation)),
+    }
 }
