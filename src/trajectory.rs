@@ -22,6 +22,10 @@ pub enum EventKind {
     Bounce,
     /// A body came to rest on another.
     Stick,
+    /// One of the small hops by which bodies that stay in contact slide, roll or rock on each other.
+    Hop,
+    /// A body was found in equilibrium with its bounces over, and rests from there until it is hit.
+    Rest,
 }
 
 impl EventKind {
@@ -30,6 +34,8 @@ impl EventKind {
         match self {
             Self::Bounce => "bounce",
             Self::Stick => "stick",
+            Self::Hop => "hop",
+            Self::Rest => "rest",
         }
     }
 }

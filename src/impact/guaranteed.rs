@@ -174,7 +174,11 @@ impl<'a> Search<'a> {
         } else if gap < -self.rounding(&look, start, from) {
             return Ok(self.found(Outcome::Overlap, from, 0));
         } else {
-            Phase::Leaving(if look.closest.lower > 0.0 { 0.5 * look.closest.lower } else { gap - eps_here })
+            Phase::Leaving(if look.closest.lower > 0.0 {
+                0.5 * look.closest.lower
+            } else {
+                gap.min(0.0) - LEAST_SINK * eps_here
+            })
         };
         let mut stays = 0;
 
@@ -477,5 +481,7 @@ const SWEEPS: f64 = 1.0;
 const LEAST_STAY: f64 = 100.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].
 const SLOW: f64 = 1.0e4;
+/// How far a pair that touches to rounding may sink while it leaves, in ε [-].
+const LEAST_SINK: f64 = 1.0 / 64.0;
 /// Rounds within ε after which a pair is said to stay there [-].
 const STAYS: u32 = 256;

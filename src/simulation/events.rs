@@ -6,18 +6,20 @@ use super::near::{Due, What};
 use super::path::Path;
 use super::{Failure, Simulation, SimulationError};
 use crate::closest::{Accuracy, ClosestFeatures, Collidable, Collider, PairCache, closest_features};
+use crate::contact::accumulation::rest_speed;
 use crate::contact::broad_phase::Aabb;
-use crate::contact::cluster::{ClusterBody, Contact};
+use crate::contact::cluster::{ClusterBody, ClusterError, Contact, Velocity};
 use crate::contact::collision::{Collision, Law, collide};
 use crate::contact::manifold::{Surface, Touch, manifold};
 use crate::contact::{Answer, Material, Response, stick};
+use crate::effect::AnyEffect;
 use crate::error::Error;
 use crate::impact::{Found, Moving, Outcome, first_impact_by};
 use crate::math::sum::Time;
 use crate::math::{Pose, Vector3, quaternion};
 use crate::plan::EPS_ROUNDING;
 use crate::shape::Shape;
-use crate::state::BodyMotion;
+use crate::state::{BodyMotion, Load, Moment};
 use crate::tolerance::{IMPACT_GAP, TOUCH_GAP};
 use crate::trajectory::{Event, EventKind, Trajectory};
 
@@ -27,6 +29,17 @@ const WINDOW: f64 = 2.0;
 /// Impacts of one body at one instant after which it is said to rest [-]. Two planes that answer each
 /// other with e < 1 are done to rounding after about 50.
 const ROUNDS_AT_ONCE: u32 = 64;
+/// Height of the hops by which a lasting contact is carried, as a fraction of the pair's size [-]. Smaller:
+/// sliding, rolling and rocking are closer to the limit of no hops, in proportion to the square root, at as
+/// many more events. No hop is needed for what bounces or rests.
+const HOP: f64 = 1.0e-5;
+/// Height of a bounce below which bodies rest, in ε [-]: a search tells bounces of a few ε from rest.
+const REST_GAP: f64 = 4.0;
+/// Speed that a plastic impact may leave, as a fraction of the approach, for the motion to count as dying
+/// with its bounces [-].
+const DIES: f64 = 1.0;
+/// Acceleration that contact forces may leave of the loads' for an equilibrium [-]; solvers leave 1e-11.
+const EQUILIBRIUM: f64 = 1.0e-9;
 /// Grazes of one pair in one search after which it is said to touch [-].
 const GRAZES: u32 = 1000;
 
@@ -45,6 +58,8 @@ struct Cluster {
     motions: Vec<BodyMotion>,
     touching: Vec<Touching>,
     contacts: Vec<Contact>,
+    /// Bodies that rest from here on.
+    resting: Vec<usize>,
 }
 
 impl Simulation {
@@ -162,6 +177,9 @@ impl Simulation {
         let [Some(shape_a), Some(shape_b)] = [a, b].map(|i| plan.bodies()[i].collider.as_deref()) else {
             return Ok(());
         };
+        if [a, b].iter().all(|&i| self.places[i].is_none() || self.is_held(i)) {
+            return Ok(());
+        }
         let until = window_a.to.min(window_b.to).min(self.end) - now;
         if until <= 0.0 || self.is_beyond(a, b) {
             return Ok(());
@@ -243,14 +261,7 @@ impl Simulation {
             stuck.push((b, answer, touching.closest, a));
         }
         if stuck.is_empty() {
-            let collision = self.collide(&cluster).map_err(|why| {
-                let why = Failure::Refused(format!("the impact cannot be answered: {why}"));
-                self.failure_of(&cluster.bodies, time.value, why)
-            })?;
-            for (motion, velocity) in cluster.motions.iter_mut().zip(&collision.velocities) {
-                (motion.velocity, motion.angular_velocity) = (velocity.linear, velocity.angular);
-            }
-            self.book(&cluster, &before, &collision, time, iterations);
+            self.respond(&mut cluster, &before, time, iterations)?;
         }
         for (body, answer, closest, obstacle) in &stuck {
             let (Some(place), group) = (cluster.place(*body), self.places[*body]) else { continue };
@@ -275,20 +286,27 @@ impl Simulation {
         }
         self.iterations += u64::from(iterations);
 
-        // those whose velocity has changed begin another flight
+        // those whose velocity has changed begin another flight, and those that rested on them
+        let moved = |place: usize| {
+            before[place].velocity != cluster.motions[place].velocity
+                || before[place].angular_velocity != cluster.motions[place].angular_velocity
+        };
+        let any = (0..cluster.bodies.len()).any(moved);
         let mut lanes: Vec<usize> = Vec::new();
         for (place, &body) in cluster.bodies.iter().enumerate() {
-            let changed = before[place].velocity != cluster.motions[place].velocity
-                || before[place].angular_velocity != cluster.motions[place].angular_velocity;
-            if let (true, Some((lane, _))) = (changed, self.places[body])
-                && !lanes.contains(&lane)
-            {
+            let Some((lane, _)) = self.places[body] else { continue };
+            let rests = cluster.resting.contains(&body);
+            let woken = any && self.is_held(body) && !rests && plan.scene().bodies[body].response == Response::Bounce;
+            if woken {
+                self.lanes[lane].held.retain(|held| *held != body);
+            }
+            if (moved(place) || woken || rests) && !lanes.contains(&lane) {
                 lanes.push(lane);
             }
         }
         lanes.sort_unstable();
         for &lane in &lanes {
-            self.begin_flight(lane, time, &cluster, !stuck.is_empty(), record)?;
+            self.begin_flight(lane, time, &cluster, record)?;
         }
         for &lane in &lanes {
             for &body in &plan.groups()[self.lanes[lane].group].members {
@@ -307,8 +325,13 @@ impl Simulation {
     /// All that touches at `time`, starting from two bodies that do.
     fn cluster(&self, [a, b]: [usize; 2], time: Time) -> Result<Cluster, SimulationError> {
         let plan = &self.plan;
-        let mut cluster =
-            Cluster { bodies: Vec::new(), motions: Vec::new(), touching: Vec::new(), contacts: Vec::new() };
+        let mut cluster = Cluster {
+            bodies: Vec::new(),
+            motions: Vec::new(),
+            touching: Vec::new(),
+            contacts: Vec::new(),
+            resting: Vec::new(),
+        };
         for body in [a, b] {
             cluster.add(body, self.motion_at(body, time));
         }
@@ -375,21 +398,176 @@ impl Simulation {
         Ok(contacts)
     }
 
+    /// Answers the impact of a cluster: a bounce, a hop of bodies that stay in contact, or rest.
+    ///
+    /// ```text
+    /// u ≥ v_hop                                      a bounce
+    /// u < v_hop, a plastic impact leaves motion      a hop: with e = 1, and never slower than v_hop/2
+    /// u < v_hop, a plastic impact leaves none        a bounce, down to v_rest; then rest, if there is
+    ///                                                equilibrium, else a hop
+    /// v_hop = √(2 a HOP size)        v_rest = √(2 a ε)        a: the loads' acceleration
+    /// ```
+    ///
+    /// u is the fastest approach of the cluster. Hops carry a lasting contact: their impulses in the mean are
+    /// its forces, friction included, with an error of first order in `v_hop`.
+    fn respond(
+        &mut self,
+        cluster: &mut Cluster,
+        before: &[BodyMotion],
+        time: Time,
+        iterations: u32,
+    ) -> Result<(), SimulationError> {
+        let refused = |this: &Self, bodies: &[usize], why: ClusterError| {
+            let why = Failure::Refused(format!("the impact cannot be answered: {why}"));
+            this.failure_of(bodies, time.value, why)
+        };
+        let pulls: Vec<(Vector3, Vector3)> =
+            cluster.bodies.iter().zip(before).map(|(&body, motion)| self.pull(body, motion, time)).collect();
+        let pull = pulls.iter().map(|(a, _)| a.norm()).fold(0.0, f64::max);
+        let size = cluster.touching.iter().map(|t| self.size(t.bodies[0], t.bodies[1])).fold(f64::INFINITY, f64::min);
+        let (hop, rest) = ((2.0 * pull * HOP * size).sqrt(), rest_speed(pull, REST_GAP * self.eps_of(size)));
+        let approach = cluster.contacts.iter().map(|c| cluster.approach(c)).fold(0.0, f64::max);
+
+        let mut kind = EventKind::Bounce;
+        let mut contacts = cluster.contacts.clone();
+        if approach < hop {
+            let plastic: Vec<Contact> = contacts.iter().map(|c| c.clone().restitution(0.0)).collect();
+            let after = self.collide(cluster, &cluster.motions, &plastic);
+            let after = after.map_err(|why| refused(self, &cluster.bodies, why))?;
+            let left = self.fastest(cluster, &after);
+            let dies = left <= DIES * approach.max(rest);
+            if dies
+                && approach <= rest
+                && self.may_rest(cluster, &pulls).map_err(|why| refused(self, &cluster.bodies, why))?
+            {
+                return Ok(self.lay_down(cluster, before, &after, time, iterations));
+            }
+            if !dies || approach <= rest {
+                kind = EventKind::Hop;
+                contacts.iter_mut().for_each(|c| c.restitution = 1.0);
+            }
+        }
+
+        let collision = self.collide(cluster, &cluster.motions, &contacts);
+        let collision = collision.map_err(|why| refused(self, &cluster.bodies, why))?;
+        for (motion, velocity) in cluster.motions.iter_mut().zip(&collision.velocities) {
+            (motion.velocity, motion.angular_velocity) = (velocity.linear, velocity.angular);
+        }
+        if kind == EventKind::Hop && approach < 0.5 * hop {
+            self.lift(cluster, 0.5 * hop);
+        }
+        self.book(cluster, before, &collision, time, iterations, kind);
+        Ok(())
+    }
+
     /// The velocities after the impact of a cluster.
-    fn collide(&self, cluster: &Cluster) -> Result<Collision, crate::contact::cluster::ClusterError> {
-        let bodies: Vec<ClusterBody> = cluster
-            .bodies
-            .iter()
-            .zip(&cluster.motions)
-            .map(|(&body, motion)| {
-                if self.places[body].is_none() || (self.is_held(body)) {
-                    ClusterBody::driven(motion)
-                } else {
-                    ClusterBody::free(motion, &self.plan.bodies()[body].properties.inv_inertia())
-                }
-            })
-            .collect();
-        collide(&bodies, &cluster.contacts, Law::default())
+    fn collide(
+        &self,
+        cluster: &Cluster,
+        motions: &[BodyMotion],
+        contacts: &[Contact],
+    ) -> Result<Collision, ClusterError> {
+        let body = |(&body, motion): (&usize, &BodyMotion)| {
+            if self.places[body].is_none() {
+                ClusterBody::driven(motion)
+            } else {
+                ClusterBody::free(motion, &self.plan.bodies()[body].properties.inv_inertia())
+            }
+        };
+        let bodies: Vec<ClusterBody> = cluster.bodies.iter().zip(motions).map(body).collect();
+        collide(&bodies, contacts, Law::default())
+    }
+
+    /// The largest speed of a point of a moving body after an impact [m/s].
+    fn fastest(&self, cluster: &Cluster, after: &Collision) -> f64 {
+        let speed = |(&body, v): (&usize, &Velocity)| {
+            if self.places[body].is_none() {
+                return 0.0;
+            }
+            v.linear.norm() + v.angular.norm() * self.plan.bodies()[body].radius
+        };
+        cluster.bodies.iter().zip(&after.velocities).map(speed).fold(0.0, f64::max)
+    }
+
+    /// Acceleration [m/s²] and angular acceleration [rad/s²] that the effects give a body at rest.
+    fn pull(&self, body: usize, motion: &BodyMotion, time: Time) -> (Vector3, Vector3) {
+        let none = (Vector3::zeros(), Vector3::zeros());
+        let Some((lane, member)) = self.places[body] else { return none };
+        let spec = &self.plan.groups()[self.lanes[lane].group];
+        let still = BodyMotion { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros(), ..*motion };
+        let mut load = [Load::zero()];
+        for binding in spec.bindings.iter().filter(|binding| binding.members == [member]) {
+            let at = Moment { time: time.value, since: time.value };
+            binding.effect.as_effect().add_to(at, &[still], &mut load);
+        }
+        let inverse = motion.rotation * self.plan.bodies()[body].properties.inv_inertia() * motion.rotation.transpose();
+        (load[0].force / motion.mass, inverse * load[0].torque)
+    }
+
+    /// Whether the loads of a cluster's bodies, all of them at rest, are in equilibrium with forces in their
+    /// contacts: whether a plastic impact undoes what the loads would add to the velocities.
+    fn may_rest(&self, cluster: &Cluster, pulls: &[(Vector3, Vector3)]) -> Result<bool, ClusterError> {
+        // what changes with time, or comes from other bodies, is not known to stay
+        let steady = |&body: &usize| {
+            let Some((lane, _)) = self.places[body] else { return true };
+            let spec = &self.plan.groups()[self.lanes[lane].group];
+            spec.members.len() == 1
+                && spec.bindings.iter().all(|binding| {
+                    matches!(
+                        *binding.effect,
+                        AnyEffect::UniformGravity(_) | AnyEffect::Drag(_) | AnyEffect::PointGravity(_)
+                    )
+                })
+        };
+        if !cluster.bodies.iter().all(steady) {
+            return Ok(false);
+        }
+        let mut pulled = cluster.motions.clone();
+        for (motion, (a, alpha)) in pulled.iter_mut().zip(pulls) {
+            (motion.velocity, motion.angular_velocity) = (*a, *alpha);
+        }
+        let contacts: Vec<Contact> = cluster.contacts.iter().map(|c| c.clone().restitution(0.0)).collect();
+        let after = self.collide(cluster, &pulled, &contacts)?;
+        let pull = pulls.iter().map(|(a, _)| a.norm()).fold(0.0, f64::max);
+        Ok(self.fastest(cluster, &after) <= EQUILIBRIUM * pull)
+    }
+
+    /// Brings the moving bodies of a cluster to rest where they are.
+    fn lay_down(
+        &mut self,
+        cluster: &mut Cluster,
+        before: &[BodyMotion],
+        plastic: &Collision,
+        time: Time,
+        iterations: u32,
+    ) {
+        for (motion, &body) in cluster.motions.iter_mut().zip(&cluster.bodies) {
+            let Some((lane, _)) = self.places[body] else { continue };
+            (motion.velocity, motion.angular_velocity) = (Vector3::zeros(), Vector3::zeros());
+            cluster.resting.push(body);
+            if !self.lanes[lane].held.contains(&body) {
+                self.lanes[lane].held.push(body);
+            }
+        }
+        self.book(cluster, before, plastic, time, iterations, EventKind::Rest);
+    }
+
+    /// Lifts the moving bodies of a cluster off what they touch, with this speed [m/s].
+    fn lift(&self, cluster: &mut Cluster, speed: f64) {
+        let mut off = vec![Vector3::zeros(); cluster.bodies.len()];
+        for contact in &cluster.contacts {
+            let normal: Vector3 = contact.normals.iter().sum();
+            if self.places[cluster.bodies[contact.a]].is_none() || self.is_held(cluster.bodies[contact.a]) {
+                off[contact.b] += normal;
+            } else if self.places[cluster.bodies[contact.b]].is_none() {
+                off[contact.a] -= normal;
+            }
+        }
+        for (motion, off) in cluster.motions.iter_mut().zip(off) {
+            if let Some(direction) = off.try_normalize(0.0) {
+                motion.velocity += speed * direction;
+            }
+        }
     }
 
     /// Books one event for every pair that took an impulse.
@@ -400,6 +578,7 @@ impl Simulation {
         collision: &Collision,
         time: Time,
         mut iterations: u32,
+        kind: EventKind,
     ) {
         for touching in &cluster.touching {
             let range = touching.contacts.clone();
@@ -419,7 +598,7 @@ impl Simulation {
             let lost = |(c, j): (&Contact, &Vector3)| -0.5 * j.dot(&(speed(before, &c.point) + speed(after, &c.point)));
             self.events.push(Event {
                 time: time.value,
-                kind: EventKind::Bounce,
+                kind,
                 bodies: touching.bodies,
                 point,
                 normal: touching.closest.normal,
@@ -442,7 +621,6 @@ impl Simulation {
         index: usize,
         time: Time,
         cluster: &Cluster,
-        new_phase: bool,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
@@ -468,7 +646,7 @@ impl Simulation {
             .flight_for(lane.group, time.value, &self.controls[lane.group], &motions, &lane.held)
             .and_then(|flight| Ok((flight, plan.charts(lane.group, &lane.held)?)))
             .and_then(|(flight, charts)| {
-                if let (Some(run), true) = (record.as_mut(), new_phase) {
+                if let (Some(run), true) = (record.as_mut(), charts != lane.charts) {
                     lane.phase = run.phases.len();
                     run.phases.push(plan.phase(lane.group, time.value, &motions, &lane.held)?);
                 }
@@ -548,7 +726,12 @@ impl Simulation {
 
     /// Gap at which a contact of two bodies is accepted [m]; the search keeps it above rounding.
     fn eps(&self, a: usize, b: usize) -> f64 {
-        self.plan.options().eps.unwrap_or(IMPACT_GAP * self.size(a, b))
+        self.eps_of(self.size(a, b))
+    }
+
+    /// The same for a pair of this size [m].
+    fn eps_of(&self, size: f64) -> f64 {
+        self.plan.options().eps.unwrap_or(IMPACT_GAP * size)
     }
 
     fn failure_of(&self, bodies: &[usize], time: f64, kind: Failure) -> SimulationError {
@@ -565,6 +748,12 @@ impl Cluster {
             self.motions.push(motion);
             self.bodies.len() - 1
         })
+    }
+
+    /// How fast the bodies of a contact approach at its point [m/s]; the fastest of its normals.
+    fn approach(&self, contact: &Contact) -> f64 {
+        let [a, b] = [contact.a, contact.b].map(|k| self.motions[k].velocity_at(&contact.point));
+        contact.normals.iter().map(|n| n.dot(&(a - b))).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The place of a body.
