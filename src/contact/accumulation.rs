@@ -12,7 +12,7 @@
 //! ratio still moves from interval to interval, its movement bounds the error of t*:
 //!
 //! ```text
-//! r₁ = τ₂/τ₁,  r₂ = τ₃/τ₂        |δt*| ≈ τ₃ |r₂ − r₁|/(1 − r₂)² + ε t/(1 − r₂)²
+//! r₁ = τ₂/τ₁,  r₂ = τ₃/τ₂        |δt*| ≈ τ₃ |r₂ − r₁|/(1 − r₂)² + 8 ε t/(1 − r₂)²
 //! ```
 //!
 //! What happens after t* is rest ([`rest`](super::rest)): the normal velocity of the contact is 0 there. The
@@ -44,6 +44,10 @@ pub struct Accumulation {
 /// Ratio of intervals above which a sequence counts as endless [-]: at 0.999 some 7000 bounces more bring the
 /// speed to a thousandth, and t* depends on the fourth digit of every ratio.
 const ENDLESS: f64 = 0.999;
+
+/// What the rounding of four times leaves in the ratio of their differences, as a fraction of time over
+/// interval [-].
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Accumulation {
     /// A contact without impacts so far.
@@ -79,7 +83,7 @@ impl Accumulation {
             return None;
         }
         let rest = 1.0 - ratio;
-        let rounding = f64::EPSILON * t3.abs();
+        let rounding = ROUNDING * t3.abs();
         let error = (c * (ratio - before).abs() + rounding) / (rest * rest);
         Some(Capture { time: t3 + c * ratio / rest, ratio, error })
     }

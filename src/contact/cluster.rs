@@ -251,6 +251,20 @@ pub enum ClusterError {
         /// How fast [m/s].
         approach: f64,
     },
+    /// No forces meet the laws of contact: sliding with friction can contradict them (Painlevé 1895).
+    #[error("no forces meet the laws of contact, residual {residual}; an impact without collision is due")]
+    Inconsistent {
+        /// How far the best forces are from meeting them, relative to the largest acceleration [-].
+        residual: f64,
+    },
+    /// Accelerations were not given for each body.
+    #[error("{accelerations} accelerations for {bodies} bodies")]
+    Lengths {
+        /// Number of bodies.
+        bodies: usize,
+        /// Number of accelerations.
+        accelerations: usize,
+    },
 }
 
 /// A contact's frame: normal and two tangents.
@@ -268,14 +282,14 @@ impl Frame {
         Self([*normal, first, normal.cross(&first)])
     }
 
+    /// The components of a vector.
+    pub(super) fn components(&self, vector: &Vector3) -> [f64; 3] {
+        self.0.map(|axis| axis.dot(vector))
+    }
+
     /// The vector of these components.
     pub(super) fn vector(&self, components: [f64; 3]) -> Vector3 {
         components[0] * self.0[0] + components[1] * self.0[1] + components[2] * self.0[2]
-    }
-
-    /// The components of a vector.
-    pub(super) fn components(&self, vector: &Vector3) -> [f64; 3] {
-        [self.0[0].dot(vector), self.0[1].dot(vector), self.0[2].dot(vector)]
     }
 }
 

@@ -23,13 +23,10 @@
 //! found with every normal of the cone pushing on its own; its direction is the normal of that contact from
 //! there on. A blow along the cone's axis is answered along the axis.
 
-use super::cluster::{
-    ClusterBody, ClusterError, Contact, Frame, Row, Velocity, check, matrix, relative, velocities_after,
-};
+use super::cluster::{ClusterBody, ClusterError, Contact, Frame, Velocity, check, relative, velocities_after};
 use super::friction::Rubbing;
+use super::problem::{Scaled, choose_normals, noise_of};
 use super::reflection::reflect;
-use super::solver::active_set;
-use super::solver::dense::{Dense, largest};
 use crate::math::Vector3;
 
 /// What restitution means where friction couples the normal and the tangent.
@@ -88,9 +85,6 @@ pub struct Collision {
 /// cluster counts as squeezed. Solvers end at 1e-11 or, where nothing helps, orders of magnitude above.
 const SQUEEZED: f64 = 1.0e-9;
 
-/// What rounding leaves of a relative velocity, as a fraction of the velocities it is the difference of [-].
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
-
 /// Answers the impact of a cluster; see the [module](self).
 ///
 /// # Errors
@@ -104,11 +98,12 @@ pub fn collide(bodies: &[ClusterBody], contacts: &[Contact], law: Law) -> Result
     let normals = choose_normals(bodies, contacts, &active, &speeds);
 
     // impulses of the contacts that anything can move
-    let scaled = Scaled::new(bodies, contacts, &active, &normals, &speeds);
+    let rows_per_contact = if active.iter().all(|&i| contacts[i].friction == 0.0) { 1 } else { 3 };
+    let scaled = Scaled::new(bodies, contacts, &active, &normals, &speeds, rows_per_contact);
     let restitution: Vec<f64> = active.iter().map(|&i| contacts[i].restitution).collect();
     let friction: Vec<f64> = active.iter().map(|&i| contacts[i].friction).collect();
     let mut impulses = vec![Vector3::zeros(); contacts.len()];
-    let (residual, rounds, restitution_kept) = if scaled.rows_per_contact == 1 {
+    let (residual, rounds, restitution_kept) = if rows_per_contact == 1 {
         let answer = reflect(&scaled.w, &scaled.q, &restitution, &scaled.noise);
         for (k, &i) in active.iter().enumerate() {
             impulses[i] = scaled.size[k] * answer.impulse[k] * normals[i];
@@ -169,100 +164,4 @@ fn work_of_driven(bodies: &[ClusterBody], contacts: &[Contact], impulses: &[Vect
         }
     }
     work
-}
-
-/// What rounding may leave of the relative velocity at a contact [m/s].
-fn noise_of(bodies: &[ClusterBody], contact: &Contact) -> f64 {
-    let size = |k: usize| {
-        let motion = &bodies[k].motion;
-        motion.velocity.norm() + motion.angular_velocity.norm() * bodies[k].lever(&contact.point).norm()
-    };
-    ROUNDING * (size(contact.a) + size(contact.b))
-}
-
-/// The contact problem with each contact scaled to a diagonal near 1: `p = s p′, u′ = s u, W′ = s W s`.
-struct Scaled {
-    rows_per_contact: usize,
-    w: Dense,
-    q: Vec<f64>,
-    size: Vec<f64>,
-    noise: Vec<f64>,
-}
-
-impl Scaled {
-    fn new(
-        bodies: &[ClusterBody],
-        contacts: &[Contact],
-        active: &[usize],
-        normals: &[Vector3],
-        speeds: &[Vector3],
-    ) -> Self {
-        // contacts without friction have one row each
-        let rows_per_contact = if active.iter().all(|&i| contacts[i].friction == 0.0) { 1 } else { 3 };
-        let mut rows = Vec::new();
-        for &contact in active {
-            let frame = Frame::new(&normals[contact]);
-            rows.extend(frame.0[..rows_per_contact].iter().map(|&direction| Row { contact, direction }));
-        }
-        let (w, size) = scale_rows(&matrix(bodies, contacts, &rows), rows_per_contact);
-        let q = rows
-            .iter()
-            .enumerate()
-            .map(|(r, row)| size[r / rows_per_contact] * row.direction.dot(&speeds[row.contact]));
-        let q = q.collect();
-        let noise = active.iter().zip(&size).map(|(&i, s)| s * noise_of(bodies, &contacts[i])).collect();
-        Self { rows_per_contact, w, q, size, noise }
-    }
-}
-
-/// W scaled by one number per contact, its diagonal then near 1; and those numbers.
-fn scale_rows(w: &Dense, rows_per_contact: usize) -> (Dense, Vec<f64>) {
-    let count = w.size() / rows_per_contact;
-    let mean = |k: usize| {
-        let rows = k * rows_per_contact..(k + 1) * rows_per_contact;
-        rows.map(|r| w.at(r, r)).sum::<f64>() / rows_per_contact as f64
-    };
-    let size: Vec<f64> = (0..count).map(|k| if mean(k) > 0.0 { 1.0 / mean(k).sqrt() } else { 0.0 }).collect();
-    let scaled = Dense::from_fn(w.size(), |r, c| size[r / rows_per_contact] * w.at(r, c) * size[c / rows_per_contact]);
-    (scaled, size)
-}
-
-/// One normal for each contact; see the [module](self).
-fn choose_normals(bodies: &[ClusterBody], contacts: &[Contact], active: &[usize], speeds: &[Vector3]) -> Vec<Vector3> {
-    let mut chosen: Vec<Vector3> = contacts.iter().map(|c| mean_direction(&c.normals)).collect();
-    if active.iter().all(|&i| contacts[i].normals.len() == 1) {
-        return chosen;
-    }
-    let rows: Vec<Row> = active
-        .iter()
-        .flat_map(|&contact| contacts[contact].normals.iter().map(move |&direction| Row { contact, direction }))
-        .collect();
-    let (w, size) = scale_rows(&matrix(bodies, contacts, &rows), 1);
-    let q: Vec<f64> = rows.iter().zip(&size).map(|(row, s)| s * row.direction.dot(&speeds[row.contact])).collect();
-    let found = active_set::solve(&w, &q).impulse;
-    let floor = CHOICE * largest(&found);
-    for &i in active.iter().filter(|&&i| contacts[i].normals.len() > 1) {
-        let own = rows.iter().zip(&size).zip(&found).filter(|((row, _), _)| row.contact == i);
-        let (mut sum, mut any) = (Vector3::zeros(), false);
-        for ((row, s), p) in own {
-            sum += s * p * row.direction;
-            any |= *p > floor;
-        }
-        let length = sum.norm();
-        if any && length > 0.0 {
-            chosen[i] = sum / length;
-        }
-    }
-    chosen
-}
-
-/// Impulse below which a contact does not choose its own normal, as a fraction of the largest [-]:
-/// rounding has no direction.
-const CHOICE: f64 = 1.0e-12;
-
-/// The middle of a cone's normals; of one normal itself.
-fn mean_direction(normals: &[Vector3]) -> Vector3 {
-    let sum: Vector3 = normals.iter().sum();
-    let length = sum.norm();
-    if normals.len() == 1 || length == 0.0 { normals[0] } else { sum / length }
 }

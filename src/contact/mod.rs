@@ -1,4 +1,31 @@
-//! What happens when a body touches a fixed plane: it bounces, or it sticks (lecture §7).
+//! What happens where bodies touch: they bounce, or they stick (lecture §7), or they stay and carry each
+//! other (beyond).
+//!
+//! ```text
+//! closest features ──manifold──▶ points, normals ──contacts──▶ Contact ─┬─collide──▶ impulses, velocities
+//!                                                                       ├─rest─────▶ forces, stick | slide | separate
+//!                                                                       └─merge────▶ one compound
+//! ```
+//!
+//! | module | answers |
+//! |---|---|
+//! | [`manifold`] | all points in which two bodies touch, and the cone of their normals |
+//! | [`cluster`] | the bodies and contacts of one instant |
+//! | [`collision`] | impact: every contact of the cluster at once, with restitution and friction |
+//! | [`stick`] | merging bodies into one |
+//! | [`accumulation`] | when bounces have no end but a last instant |
+//! | [`rest`] | forces of contacts that last |
+//! | [`solver`] | the problems beneath, each answer with its residual |
+//! | [`bounce`] | the formula of one point against a fixed plane |
+//!
+//! Everything here is a pure function of an instant. A run with events calls, at a located impact:
+//!
+//! 1. [`manifold::manifold`] for each touching pair of the cluster, with the `ε_touch` that is model data;
+//! 2. [`collision::collide`] with the pairs' friction and restitution (or [`stick::merge`]);
+//! 3. [`accumulation::Accumulation::book`] for each contact that was hit; a capture means that the contact
+//!    rests from the captured time on;
+//! 4. [`rest::rest`] for contacts whose normal velocity is 0: what separates is set free, what sticks or slides
+//!    is held.
 
 pub mod accumulation;
 pub mod bounce;
@@ -8,7 +35,9 @@ pub mod collision;
 mod friction;
 pub mod manifold;
 mod patch;
+mod problem;
 mod reflection;
+pub mod rest;
 pub mod solver;
 pub mod stick;
 

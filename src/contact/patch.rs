@@ -2,7 +2,7 @@
 //!
 //! Exact for each surface; "foremost" means within ε of the farthest point, so that a face tilted by less
 //! than ε over its extent counts as lying flat. A circular face is given as the regular polygon of
-//! [`DISC`] corners in its rim.
+//! sixteen corners in its rim.
 
 use crate::closest::Feature;
 use crate::math::{Pose, Vector3};
@@ -11,7 +11,7 @@ use crate::shape::{Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere};
 
 /// Corners of the polygon that stands for a circular face [-]. Inside it a load is carried as by the disc;
 /// in the slivers outside, up to 1 − cos(π/16) = 2 % of the radius, a load tips the body early.
-pub const DISC: usize = 16;
+pub(super) const DISC: usize = 16;
 
 /// A surface that bodies can touch with.
 #[derive(Debug, Clone, Copy, PartialEq)]

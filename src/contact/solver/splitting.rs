@@ -32,6 +32,9 @@ pub fn solve(problem: &Coulomb<'_>) -> Solution {
         let u = problem.w.times_plus(&z, problem.q);
         let mut right: Vec<f64> = (0..size).map(|k| rho * z[k] - y[k] - problem.q[k]).collect();
         for i in 0..problem.contacts() {
+            if problem.slide[i].is_some() {
+                continue;
+            }
             let u = triple(&u, i);
             right[3 * i] -= problem.friction[i] * libm::hypot(u[1], u[2]);
         }

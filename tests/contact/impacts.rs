@@ -1,79 +1,11 @@
-//! Impacts with known answers: each test states its formula and where it comes from.
-//!
-//! Errors are relative to the case's own speed and size. Tolerances: 1e-12 where only rounding enters
-//! (a few operations on numbers of the case's size, 1e-16 each, times the condition of the contact matrix,
-//! below 1e3 here).
+//! Impacts.
 
 use bryla::BodyMotion;
 use bryla::contact::cluster::{ClusterBody, ClusterError, Contact, Velocity};
-use bryla::contact::collision::{Collision, Law, collide};
-use bryla::math::{Matrix3, Vector3, quaternion};
+use bryla::contact::collision::{Law, collide};
+use bryla::math::{Matrix3, Vector3};
 
-const TIGHT: f64 = 1e-12;
-
-fn vector(x: f64, y: f64, z: f64) -> Vector3 {
-    Vector3::new(x, y, z)
-}
-
-/// A free body from mass, principal moments, position, velocity and angular velocity, turned by a quaternion.
-fn body(mass: f64, moments: [f64; 3], x: Vector3, v: Vector3, w: Vector3, turn: [f64; 4]) -> ClusterBody {
-    let mut motion = BodyMotion::at_rest(mass, Matrix3::from_diagonal(&moments.into()));
-    motion.position = x;
-    motion.velocity = v;
-    motion.angular_velocity = w;
-    motion.orientation = quaternion::normalized(&quaternion::from_scalar_first(turn));
-    motion.rotation = quaternion::to_matrix(&motion.orientation);
-    let inverse = Matrix3::from_diagonal(&Vector3::from(moments.map(|i| 1.0 / i)));
-    ClusterBody::free(&motion, &inverse)
-}
-
-fn upright(mass: f64, moments: [f64; 3], x: Vector3, v: Vector3) -> ClusterBody {
-    body(mass, moments, x, v, Vector3::zeros(), [1.0, 0.0, 0.0, 0.0])
-}
-
-/// A ball: I = 2/5 m R².
-fn ball(mass: f64, radius: f64, x: Vector3, v: Vector3) -> ClusterBody {
-    upright(mass, [0.4 * mass * radius * radius; 3], x, v)
-}
-
-/// A cube of side 2 h: I = 2/3 m h².
-fn cube(mass: f64, half: f64, x: Vector3, v: Vector3) -> ClusterBody {
-    upright(mass, [mass * half * half / 1.5; 3], x, v)
-}
-
-/// The four corners of a square of half side `h` about a point, across an axis.
-fn corners(center: Vector3, axis: usize, h: f64) -> [Vector3; 4] {
-    [[-h, -h], [h, -h], [h, h], [-h, h]].map(|[p, q]| {
-        let mut offset = Vector3::zeros();
-        offset[(axis + 1) % 3] = p;
-        offset[(axis + 2) % 3] = q;
-        center + offset
-    })
-}
-
-fn answer(bodies: &[ClusterBody], contacts: &[Contact]) -> Collision {
-    collide(bodies, contacts, Law::default()).unwrap()
-}
-
-fn close(a: &Vector3, b: &Vector3, tolerance: f64) {
-    assert!((a - b).norm() <= tolerance, "{a:?} is not {b:?}");
-}
-
-/// Momentum and angular momentum about the origin of all free bodies.
-fn momenta(bodies: &[ClusterBody], velocities: &[Velocity]) -> (Vector3, Vector3) {
-    let mut sum = (Vector3::zeros(), Vector3::zeros());
-    for (b, v) in bodies.iter().zip(velocities).filter(|(b, _)| !b.mobility.is_none()) {
-        let motion = b.moving(v);
-        let p = motion.mass * motion.velocity;
-        sum.0 += p;
-        sum.1 += motion.position.cross(&p) + motion.angular_momentum();
-    }
-    sum
-}
-
-fn before(bodies: &[ClusterBody]) -> Vec<Velocity> {
-    bodies.iter().map(ClusterBody::velocity).collect()
-}
+use super::{TIGHT, answer, ball, before, body, close, corners, cube, momenta, upright, vector};
 
 #[test]
 fn one_point_off_centre_takes_the_impulse_of_the_formula() {
@@ -486,15 +418,19 @@ fn what_cannot_be_answered_is_refused_by_name() {
 struct Numbers(u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        x ^ (x >> 31)
+    }
+
+    fn next(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     fn below(&mut self, count: usize) -> usize {
-        (self.next() * count as f64) as usize
+        usize::try_from(self.bits() % count as u64).unwrap_or(0)
     }
 
     fn vector(&mut self, size: f64) -> Vector3 {
@@ -530,7 +466,7 @@ impl Numbers {
 
 /// Asserts what holds for any cluster; returns the residual.
 fn keep_promises(bodies: &[ClusterBody], contacts: &[Contact], law: Law) -> f64 {
-    let hit = collide(bodies, contacts, law).unwrap();
+    let hit = collide(bodies, contacts, law).expect("an answer");
     let start = before(bodies);
     let speed_at = |c: &Contact, v: &[Velocity]| {
         let at = |k: usize| v[k].at(&(c.point - bodies[k].motion.position));
@@ -586,8 +522,11 @@ fn clusters_without_friction_keep_all_promises() {
         assert!(residual < 1e-9, "residual {residual:e}");
         let elastic: Vec<Contact> = contacts.into_iter().map(|c| c.restitution(1.0)).collect();
         let hit = answer(&bodies, &elastic);
+        // in a narrow wedge, hundreds of blows cancel each other: what rounding leaves goes with their sum
+        let blows: f64 = hit.impulses.iter().map(Vector3::norm).sum();
         let change = hit.energy_after - hit.energy_before;
-        assert!(change.abs() <= 1e-12 * (hit.energy_before + 1.0), "{change:e} in {} rounds", hit.rounds);
+        let rounding = 1e-12 * (hit.energy_before + 1.0) + 64.0 * f64::EPSILON * blows * 10.0;
+        assert!(change.abs() <= rounding, "{change:e} in {} rounds, blows {blows:e}", hit.rounds);
     }
 }
 

@@ -1,0 +1,239 @@
+//! Contacts that last: which stick, slide or separate, and the forces that they carry.
+//!
+//! At a closed gap that is not opening the same laws hold for accelerations and forces as for velocities and
+//! impulses in an impact (Baraff 1994; Glocker 2001):
+//!
+//! ```text
+//! u̇_n ≥ 0,  f_n ≥ 0,  u̇_n f_n = 0                         separates, or carries
+//! |f_t| ≤ μ f_n, against u̇_t      where u_t = 0             sticks, or starts to slide
+//! f_t = −μ f_n u_t/|u_t|           where u_t ≠ 0             slides
+//! ```
+//!
+//! The relative acceleration at the contact depends on where the point of contact goes (ċ) and how the normal
+//! turns (ṅ), which is the geometry's part:
+//!
+//! ```text
+//! u = v_b + ω_b × (c − x_b) − (the same of a)
+//! u̇ = a_b + α_b × r_b + ω_b × (ċ − v_b) − (the same of a)      u̇_n = n·u̇ + ṅ·u
+//! ```
+//!
+//! A corner carries its point of contact along, a ball leaves it beneath its centre; [`Support`] has a
+//! constructor for each. Forces of redundant contacts are the shortest that carry the load.
+//!
+//! # What it is for, and when it fails
+//! Small active sets: a body on its corners, an edge, a ball; a box on a box. With friction and sliding the
+//! problem can have no solution (Painlevé 1895: a rod that is pushed over the floor at a steep angle); that is
+//! the named error [`ClusterError::Inconsistent`], and the way out is an impact without collision:
+//! [`collide`](super::collision::collide) on the same contacts.
+
+use super::cluster::{ClusterBody, ClusterError, Contact, Frame, Velocity, check, relative};
+use super::problem::{Scaled, choose_normals};
+use super::solver::Coulomb;
+use crate::math::Vector3;
+use crate::state::Load;
+
+/// Acceleration of a body, world axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Acceleration {
+    /// Of the centre of mass [m/s²].
+    pub linear: Vector3,
+    /// Angular acceleration α [rad/s²].
+    pub angular: Vector3,
+}
+
+impl Acceleration {
+    /// None.
+    pub fn zero() -> Self {
+        Self { linear: Vector3::zeros(), angular: Vector3::zeros() }
+    }
+
+    /// That of a free body under a load, `a = F/m`, `α = I⁻¹ (M − ω × L)`.
+    pub fn free(body: &ClusterBody, load: &Load) -> Self {
+        let motion = &body.motion;
+        let torque = load.torque - motion.angular_velocity.cross(&motion.angular_momentum());
+        Self { linear: body.mobility.linear * load.force, angular: body.mobility.angular * torque }
+    }
+}
+
+/// A contact that lasts, with its geometry in motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Support {
+    /// Where and how; its restitution is not read.
+    pub contact: Contact,
+    /// Velocity ċ of the point of contact, world axes [m/s].
+    pub point_velocity: Vector3,
+    /// Rate ṅ of the normal, world axes [1/s].
+    pub normal_rate: Vector3,
+}
+
+impl Support {
+    /// A corner of b on a face of a (or a fixed plane): the point goes with b, the normal turns with a.
+    pub fn corner_of_b(contact: Contact, bodies: &[ClusterBody]) -> Self {
+        let (a, b) = (&bodies[contact.a], &bodies[contact.b]);
+        let point_velocity = b.motion.velocity_at(&contact.point);
+        let normal_rate = a.motion.angular_velocity.cross(&contact.normals[0]);
+        Self { contact, point_velocity, normal_rate }
+    }
+
+    /// A corner of a on a face of b.
+    pub fn corner_of_a(contact: Contact, bodies: &[ClusterBody]) -> Self {
+        let (a, b) = (&bodies[contact.a], &bodies[contact.b]);
+        let point_velocity = a.motion.velocity_at(&contact.point);
+        let normal_rate = b.motion.angular_velocity.cross(&contact.normals[0]);
+        Self { contact, point_velocity, normal_rate }
+    }
+
+    /// A ball b of this radius [m] on a face of a: the point stays beneath the ball's centre.
+    pub fn ball_on_face(contact: Contact, bodies: &[ClusterBody], radius: f64) -> Self {
+        let n = contact.normals[0];
+        let normal_rate = bodies[contact.a].motion.angular_velocity.cross(&n);
+        let center = bodies[contact.b].motion.velocity_at(&(contact.point + radius * n));
+        Self { point_velocity: center - radius * normal_rate, normal_rate, contact }
+    }
+
+    /// A ball b on a ball a, of these radii [m]: the normal turns as the line of centres.
+    pub fn ball_on_ball(contact: Contact, bodies: &[ClusterBody], radius_a: f64, radius_b: f64) -> Self {
+        let n = contact.normals[0];
+        let center_a = bodies[contact.a].motion.velocity_at(&(contact.point - radius_a * n));
+        let center_b = bodies[contact.b].motion.velocity_at(&(contact.point + radius_b * n));
+        let across = center_b - center_a;
+        let normal_rate = (across - n.dot(&across) * n) / (radius_a + radius_b);
+        Self { point_velocity: center_a + radius_a * normal_rate, normal_rate, contact }
+    }
+
+    /// Two edges that cross, of these directions in world axes: the point stays on both.
+    pub fn edge_on_edge(contact: Contact, bodies: &[ClusterBody], edge_a: &Vector3, edge_b: &Vector3) -> Self {
+        let (a, b, n) = (&bodies[contact.a].motion, &bodies[contact.b].motion, contact.normals[0]);
+        let across = edge_a.cross(edge_b);
+        let side = across.dot(&n);
+        let turning = a.angular_velocity.cross(edge_a).cross(edge_b) + edge_a.cross(&b.angular_velocity.cross(edge_b));
+        let rate = turning / side;
+        let normal_rate = rate - n.dot(&rate) * n;
+        let slip = b.velocity_at(&contact.point) - a.velocity_at(&contact.point);
+        let along = slip.cross(edge_b).dot(&n) / side;
+        Self { point_velocity: a.velocity_at(&contact.point) + along * edge_a, normal_rate, contact }
+    }
+}
+
+/// What a contact does from now on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Hold {
+    /// It opens.
+    Separate,
+    /// It carries, and does not slide.
+    Stick,
+    /// It carries, and b slides over a along this unit direction, world axes.
+    Slide(Vector3),
+}
+
+/// The contacts of a cluster at an instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rest {
+    /// What each contact does.
+    pub holds: Vec<Hold>,
+    /// Force on b of each contact, world axes [N].
+    pub forces: Vec<Vector3>,
+    /// The normal that each contact carries along.
+    pub normals: Vec<Vector3>,
+    /// Accelerations of the bodies with those forces.
+    pub accelerations: Vec<Acceleration>,
+    /// How far the forces are from solving the contact laws, relative to the largest relative acceleration [-].
+    pub residual: f64,
+}
+
+/// Residual above which the laws count as contradicting each other [-]: solvers end at 1e-11 or orders of
+/// magnitude above.
+const INCONSISTENT: f64 = 1.0e-9;
+
+/// Force, or acceleration in the same scale, that counts as none, as a fraction of the largest [-]: a hundred
+/// times what the solvers leave.
+const NOTHING: f64 = 1.0e-9;
+
+/// Which contacts stick, slide and separate, and with which forces. `free` are the accelerations of the bodies
+/// without contact forces ([`Acceleration::free`] for free bodies, the prescribed ones for driven bodies);
+/// contacts whose sliding is slower than `slip_speed` [m/s] count as sticking, or about to slide.
+///
+/// # Errors
+/// Numbers that no contact has; lists of different lengths; [`ClusterError::Inconsistent`].
+pub fn rest(
+    bodies: &[ClusterBody],
+    free: &[Acceleration],
+    supports: &[Support],
+    slip_speed: f64,
+) -> Result<Rest, ClusterError> {
+    let contacts: Vec<Contact> = supports.iter().map(|s| s.contact.clone()).collect();
+    check(bodies, &contacts)?;
+    if free.len() != bodies.len() {
+        return Err(ClusterError::Lengths { bodies: bodies.len(), accelerations: free.len() });
+    }
+    let velocities: Vec<Velocity> = bodies.iter().map(ClusterBody::velocity).collect();
+    let slips: Vec<Vector3> = contacts.iter().map(|c| relative(bodies, c, &velocities)).collect();
+    let active: Vec<usize> = (0..contacts.len())
+        .filter(|&i| !(bodies[contacts[i].a].mobility.is_none() && bodies[contacts[i].b].mobility.is_none()))
+        .collect();
+
+    // relative accelerations without forces, the turning of the normal in their normal part
+    let at = |k: usize, s: &Support| {
+        let (body, a) = (&bodies[k], &free[k]);
+        a.linear
+            + a.angular.cross(&body.lever(&s.contact.point))
+            + body.motion.angular_velocity.cross(&(s.point_velocity - body.motion.velocity))
+    };
+    let bare: Vec<Vector3> = supports.iter().map(|s| at(s.contact.b, s) - at(s.contact.a, s)).collect();
+    let normals = choose_normals(bodies, &contacts, &active, &bare);
+    let turned: Vec<Vector3> = supports
+        .iter()
+        .zip(&bare)
+        .zip(slips.iter().zip(&normals))
+        .map(|((s, bare), (slip, n))| bare + s.normal_rate.dot(slip) * n)
+        .collect();
+
+    // the problem in the frames of the contacts, sliding ones with their direction
+    let scaled = Scaled::new(bodies, &contacts, &active, &normals, &turned, 3);
+    let frames: Vec<Frame> = normals.iter().map(Frame::new).collect();
+    let friction: Vec<f64> = active.iter().map(|&i| contacts[i].friction).collect();
+    let slide: Vec<Option<[f64; 2]>> = active
+        .iter()
+        .map(|&i| {
+            let [_, first, second] = frames[i].components(&slips[i]);
+            let speed = libm::hypot(first, second);
+            (speed > slip_speed && speed > 0.0).then(|| [first / speed, second / speed])
+        })
+        .collect();
+    let floor = vec![0.0; active.len()];
+    let problem = Coulomb { w: &scaled.w, q: &scaled.q, friction: &friction, floor: &floor, slide: &slide };
+    let found = problem.solve();
+    if found.residual > INCONSISTENT {
+        return Err(ClusterError::Inconsistent { residual: found.residual });
+    }
+
+    // forces, what each contact does, accelerations
+    let mut forces = vec![Vector3::zeros(); contacts.len()];
+    let mut holds = vec![Hold::Separate; contacts.len()];
+    let after = scaled.w.times_plus(&found.impulse, &scaled.q);
+    let nothing = NOTHING * scaled.q.iter().fold(0.0, |m: f64, q| m.max(q.abs()));
+    for (k, &i) in active.iter().enumerate() {
+        let of = |x: &[f64]| [x[3 * k], x[3 * k + 1], x[3 * k + 2]];
+        let (f, a) = (of(&found.impulse), of(&after));
+        forces[i] = frames[i].vector(f.map(|f| scaled.size[k] * f));
+        let starting = libm::hypot(a[1], a[2]);
+        holds[i] = if f[0] <= nothing && a[0] > nothing {
+            Hold::Separate
+        } else if let Some(s) = slide[k] {
+            Hold::Slide(frames[i].vector([0.0, s[0], s[1]]))
+        } else if starting > nothing {
+            Hold::Slide(frames[i].vector([0.0, a[1] / starting, a[2] / starting]))
+        } else {
+            Hold::Stick
+        };
+    }
+    let mut accelerations = free.to_vec();
+    for (contact, force) in contacts.iter().zip(&forces) {
+        for (k, sign) in [(contact.a, -1.0), (contact.b, 1.0)] {
+            let change = bodies[k].mobility.answer(&(sign * force), &bodies[k].lever(&contact.point));
+            accelerations[k].linear += change.linear;
+            accelerations[k].angular += change.angular;
+        }
+    }
+    Ok(Rest { holds, forces, normals, accelerations, residual: found.residual })
+}
