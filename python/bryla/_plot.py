@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import quaternion
+from . import voronoi_regions as regions_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._bryla import ComparisonTable, Trajectory
+    from ._bryla import ComparisonTable, ConvexPolygon, PlanarClosest, Trajectory, VoronoiRegion
 
 COMPONENTS = (("x", "-"), ("y", "--"), ("z", ":"))
 
@@ -102,4 +103,59 @@ def comparison(table: ComparisonTable, figure: Figure | None) -> Any:
     axes.grid(alpha=0.3)
     axes.legend(fontsize="small")
     axes.set_title(f"against {table.reference}", fontsize="small")
+    return figure
+
+
+def voronoi_regions(polygon: ConvexPolygon, figure: Figure | None) -> Any:
+    """Draws a polygon and the Voronoi regions of its features, the lecture's figure 10.
+
+    Cones of vertices are orange, strips of edges blue; each is named by the number of its feature.
+    """
+    figure = new_figure(figure, 6.0, 6.0)
+    axes = figure.subplots()
+    vertices = polygon.vertices
+    extent = max(float(np.ptp(vertices, axis=0).max()), 1e-300)
+    draw_regions(axes, regions_of(polygon), extent)
+    axes.fill(*vertices.T, facecolor="white", edgecolor="black", zorder=2)
+    (low, high), margin = (vertices.min(axis=0), vertices.max(axis=0)), 0.6 * extent
+    axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
+    axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
+    return figure
+
+
+def draw_regions(axes: Axes, regions: Iterable[VoronoiRegion], extent: float) -> None:
+    """Fills regions as far as the figure sees, and names them."""
+    for region in regions:
+        if len(region.rays) == 0:
+            continue
+        kind, number = region.feature
+        color = "C1" if kind == "vertex" else "C0"
+        first, last = region.base[0], region.base[-1]
+        middle = region.rays.sum(axis=0)
+        # opposite rays, those of a segment's end, meet over the half turn between them
+        if np.linalg.norm(middle) < 1e-9:
+            middle = np.array([-region.rays[0][1], region.rays[0][0]])
+        middle /= np.linalg.norm(middle)
+        far = 10.0 * extent
+        border = [first + far * region.rays[0], first, last, last + far * region.rays[1]]
+        outline = np.array([*border, 0.5 * (first + last) + 2.0 * far * middle])
+        axes.fill(*outline.T, facecolor=color, edgecolor=color, alpha=0.25, zorder=1)
+        name = f"V({kind[0]}{number})"
+        axes.text(*(0.5 * (first + last) + 0.3 * extent * middle), name, ha="center", va="center", color=color)
+
+
+def walk(found: PlanarClosest, figure: Figure | None) -> Any:
+    """Draws two polygons and the pairs of features that the walk visited, from pale to dark."""
+    figure = new_figure(figure, 7.0, 5.0)
+    axes = figure.subplots()
+    for outline, name in zip(found.outlines, "AB", strict=True):
+        axes.fill(*outline.T, facecolor="0.92", edgecolor="black", zorder=2)
+        axes.text(*outline.mean(axis=0), name, ha="center", va="center")
+    for number, (kind_a, kind_b, a, b) in enumerate(found.path, start=1):
+        shade = 0.25 + 0.75 * number / len(found.path)
+        label = f"{number}: {kind_a[0]} {kind_a[1]} to {kind_b[0]} {kind_b[1]}"
+        axes.plot([a[0], b[0]], [a[1], b[1]], "o-", color="C3", alpha=shade, markersize=3, zorder=3, label=label)
+    axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
+    axes.set_title(f"{found.state}, signed distance {found.signed_distance:.6g} m", fontsize="small")
+    axes.legend(fontsize="small", title="walk")
     return figure

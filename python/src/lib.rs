@@ -8,6 +8,7 @@
 use pyo3::prelude::*;
 
 mod body;
+mod closest;
 mod compare;
 mod convert;
 mod effect;
@@ -39,6 +40,7 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     math::register(module)?;
     module.add_class::<mass::PyMassProperties>()?;
     shape::register(module)?;
+    closest::register(module)?;
     effect::register(module)?;
     freedom::register(module)?;
     module.add_class::<body::PyBody>()?;

@@ -120,6 +120,93 @@ fn features_are_named() {
     assert!((lowest - found.point_b).norm() < 1e-14);
 }
 
+/// The answer, after the oracle has agreed with it.
+fn proved(a: &ConvexPolyhedron, b: &ConvexPolyhedron) -> ClosestFeatures {
+    let home = Pose::identity();
+    let found = closest_features(a, &home, b, &home, None, Accuracy::Exact).unwrap();
+    assert_is_right(&found, &oracle::signed_distance(a, &home, b, &home), size(a, &home, b, &home), "regression");
+    found
+}
+
+/// A box of these sides, its corners placed by the matrix that the report prints.
+fn printed_box(sides: [f64; 3], rows: [[f64; 4]; 3]) -> ConvexPolyhedron {
+    let corner = |k: usize| {
+        let v: [f64; 3] = std::array::from_fn(|i| if k >> i & 1 == 0 { -0.5 } else { 0.5 } * sides[i]);
+        rows.map(|r| r[0] * v[0] + r[1] * v[1] + r[2] * v[2] + r[3])
+    };
+    ConvexPolyhedron::from_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+}
+
+/// parry#253: a panic in the depth of two triangles, one with a corner in the other's plane.
+#[test]
+fn triangles_with_a_corner_in_a_plane() {
+    let triangle = |points: [[f64; 3]; 3]| ConvexPolyhedron::from_points(&points).unwrap();
+    let lying = triangle([[-13.174434, 1.0, 8.736801], [3.5251038, 1.0, 12.1], [3.2048466, 1.0, 12.218325]]);
+    let standing = triangle([[-1.63, 0.0, 11.19], [-2.349647, 0.0, 11.037681], [-2.349647, 1.0, 11.037681]]);
+    proved(&lying, &standing);
+    proved(&standing, &lying);
+}
+
+/// fcl#293: nearest points of NaN between a thin plate and a turned box.
+#[test]
+fn a_plate_and_a_turned_box() {
+    let (plate, block) = (cuboid([1.375, 3.0, 0.025]), cuboid([0.212, 0.075, 0.0843]));
+    let home = at(1.625, 0.0, 0.5);
+    let turned = Pose::new([0.192074, -0.277870, 0.273546], [0.672811, 0.340674, 0.155066, 0.638138]);
+    let found = closest_features(&plate, &home, &block, &turned, None, Accuracy::Exact).unwrap();
+    let truth = oracle::signed_distance(&plate, &home, &block, &turned);
+    assert_is_right(&found, &truth, size(&plate, &home, &block, &turned), "fcl#293");
+    assert!(found.state == State::Separated && found.point_a.iter().all(|x| x.is_finite()));
+}
+
+/// fcl#493: equal boxes in one orientation whose edges all but touch; "the origin is outside".
+#[test]
+fn equal_boxes_that_kiss() {
+    let (x, y) = (
+        [0.94096063217417758029, 0.29296840037289501035, 0.16959541586174811667],
+        [-0.23569836841299879326, 0.92661523595848427348, -0.29296840037289506586],
+    );
+    let z = [-0.2429801799032638987, 0.23569836841299884878, 0.94096063217417758029];
+    let row = |r: [f64; 3], t: f64| [r[0], r[1], r[2], t];
+    let a = printed_box(
+        [0.25; 3],
+        [row(x, 0.073242100093223821977), row(y, 0.2316538089896212349), row(z, 1.3089245921032497399)],
+    );
+    let b = printed_box([0.25; 3], [row(x, 0.0), row(y, 0.0), row(z, 1.25)]);
+    // one edge length apart along y: touching, to the rounding of the printed numbers
+    let found = proved(&a, &b);
+    assert!(found.signed_distance.abs() < 1e-15, "{found:?}");
+}
+
+/// fcl#508: boxes apart along y alone, where a distance of 3 came out as 3.16.
+#[test]
+fn boxes_apart_along_one_axis() {
+    let cube = cuboid([0.5; 3]);
+    for (k, axis) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {
+        let mut position = [0.0; 3];
+        position[k] = 4.0;
+        let found = answer(&cube, &Pose::identity(), &cube, &at(position[0], position[1], position[2]), 3.0);
+        assert_eq!((found.signed_distance, found.normal), (3.0, axis));
+    }
+}
+
+/// dolfinx#3653: a point and a small hull, where the search never ended.
+#[test]
+fn a_point_near_a_small_hull() {
+    let point = ConvexPolyhedron::from_points(&[[44.2919, 39.7508, 18.8208]]).unwrap();
+    let hull = ConvexPolyhedron::from_points(&[
+        [46.0659, 38.6251, 16.3637],
+        [44.2764, 42.3867, 18.239],
+        [50.0397, 38.4649, 19.9843],
+        [47.1963, 40.4563, 19.1057],
+        [48.0266, 38.5593, 18.2475],
+        [45.1735, 40.495, 17.3336],
+        [48.0415, 40.4456, 18.1963],
+    ])
+    .unwrap();
+    assert_eq!(proved(&point, &hull).state, State::Separated);
+}
+
 /// Stale, foreign and senseless caches cost steps, never truth.
 #[test]
 fn any_cache_is_legal() {

@@ -12,6 +12,7 @@
 
 mod closed_forms;
 mod proof;
+mod regressions;
 
 use bryla::closest::{Accuracy, Collider, PairCache, Rung, State, closest_features};
 use bryla::math::{Pose, Vector3, quaternion};
