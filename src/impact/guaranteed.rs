@@ -235,7 +235,8 @@ impl<'a> Search<'a> {
                 };
                 return Ok(self.found(outcome, to, round));
             }
-            let next = t + step;
+            // a leap over a small bounce would land where it began: half of it shows whether the gap opens
+            let next = if matches!(phase, Phase::Leaving(_)) { t + 0.5 * step } else { t + step };
             if next <= t {
                 return Ok(self.found(Outcome::Stalled, t, round));
             }
@@ -453,11 +454,15 @@ fn crossing(c: f64, b: f64, k: f64) -> f64 {
         return 0.0;
     }
     let discriminant = b * b + 2.0 * k * c;
-    if discriminant < 0.0 {
+    if discriminant < 0.0 || (b > 0.0 && k <= 0.0) {
         return f64::INFINITY;
     }
-    let below = discriminant.sqrt() - b;
-    if below > 0.0 { 2.0 * c / below } else { f64::INFINITY }
+    // of the two forms of the root the one that does not cancel
+    let root = discriminant.sqrt();
+    if b > 0.0 {
+        return (b + root) / k;
+    }
+    if root > b { 2.0 * c / (root - b) } else { f64::INFINITY }
 }
 
 /// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
@@ -478,7 +483,7 @@ const FAR_UNITS: f64 = 8.0;
 /// Angle from which on a spin is taken for all that it sweeps [rad].
 const SWEEPS: f64 = 1.0;
 /// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
-const LEAST_STAY: f64 = 100.0;
+const LEAST_STAY: f64 = 10.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].
 const SLOW: f64 = 1.0e4;
 /// How far a pair that touches to rounding may sink while it leaves, in ε [-].

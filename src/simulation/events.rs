@@ -40,6 +40,8 @@ const REST_GAP: f64 = 4.0;
 const DIES: f64 = 1.0;
 /// Acceleration that contact forces may leave of the loads' for an equilibrium [-]; solvers leave 1e-11.
 const EQUILIBRIUM: f64 = 1.0e-9;
+/// Rounds over the contacts in which bodies are lifted off each other [-]: enough for a stack of some ten.
+const LIFTS: u32 = 256;
 /// Grazes of one pair in one search after which it is said to touch [-].
 const GRAZES: u32 = 1000;
 
@@ -552,20 +554,31 @@ impl Simulation {
         self.book(cluster, before, plastic, time, iterations, EventKind::Rest);
     }
 
-    /// Lifts the moving bodies of a cluster off what they touch, with this speed [m/s].
+    /// Lets the bodies of every contact of a cluster part with at least this speed [m/s], by shifting
+    /// velocities without turning them; two moving bodies share it so that their momentum stays.
     fn lift(&self, cluster: &mut Cluster, speed: f64) {
-        let mut off = vec![Vector3::zeros(); cluster.bodies.len()];
-        for contact in &cluster.contacts {
-            let normal: Vector3 = contact.normals.iter().sum();
-            if self.places[cluster.bodies[contact.a]].is_none() || self.is_held(cluster.bodies[contact.a]) {
-                off[contact.b] += normal;
-            } else if self.places[cluster.bodies[contact.b]].is_none() {
-                off[contact.a] -= normal;
+        let mass = |place: usize| {
+            let body = cluster.bodies[place];
+            if self.places[body].is_none() { f64::INFINITY } else { cluster.motions[place].mass }
+        };
+        let masses: Vec<f64> = (0..cluster.bodies.len()).map(mass).collect();
+        for _ in 0..LIFTS {
+            let mut parted = true;
+            for contact in &cluster.contacts {
+                let (a, b) = (contact.a, contact.b);
+                let Some(n) = contact.normals.iter().sum::<Vector3>().try_normalize(0.0) else { continue };
+                let [v_a, v_b] = [a, b].map(|k| cluster.motions[k].velocity_at(&contact.point));
+                let missing = speed - n.dot(&(v_b - v_a));
+                if missing <= 1e-3 * speed {
+                    continue;
+                }
+                parted = false;
+                let share = if masses[a].is_infinite() { 1.0 } else { 1.0 / (1.0 + masses[b] / masses[a]) };
+                cluster.motions[b].velocity += missing * share * n;
+                cluster.motions[a].velocity -= missing * (1.0 - share) * n;
             }
-        }
-        for (motion, off) in cluster.motions.iter_mut().zip(off) {
-            if let Some(direction) = off.try_normalize(0.0) {
-                motion.velocity += speed * direction;
+            if parted {
+                return;
             }
         }
     }
@@ -580,16 +593,25 @@ impl Simulation {
         mut iterations: u32,
         kind: EventKind,
     ) {
+        // what comes to rest loses all that it had
+        let mut at_rest: f64 = cluster
+            .bodies
+            .iter()
+            .zip(before)
+            .filter(|(i, _)| cluster.resting.contains(i))
+            .map(|(_, m)| m.kinetic_energy())
+            .sum();
         for touching in &cluster.touching {
             let range = touching.contacts.clone();
             let impulses = &collision.impulses[range.clone()];
             let impulse: Vector3 = impulses.iter().sum();
-            if impulse == Vector3::zeros() {
+            if impulse == Vector3::zeros() && kind != EventKind::Rest {
                 continue;
             }
             let weight: f64 = impulses.iter().map(Vector3::norm).sum();
             let contacts = &cluster.contacts[range];
-            let point = contacts.iter().zip(impulses).map(|(c, j)| j.norm() / weight * c.point).sum();
+            let part = |j: &Vector3| if weight > 0.0 { j.norm() / weight } else { 1.0 / contacts.len() as f64 };
+            let point = contacts.iter().zip(impulses).map(|(c, j)| part(j) * c.point).sum();
             let [Some(a), Some(b)] = touching.bodies.map(|i| cluster.place(i)) else { continue };
             let after = &cluster.motions;
 
@@ -609,7 +631,11 @@ impl Simulation {
                 angular_velocity: [before[b].angular_velocity, after[b].angular_velocity],
                 other_velocity: [before[a].velocity, after[a].velocity],
                 other_angular_velocity: [before[a].angular_velocity, after[a].angular_velocity],
-                energy_lost: contacts.iter().zip(impulses).map(lost).sum(),
+                energy_lost: if kind == EventKind::Rest {
+                    std::mem::take(&mut at_rest)
+                } else {
+                    contacts.iter().zip(impulses).map(lost).sum()
+                },
             });
             iterations = 0; // the rounds belong to the pair that was searched, not to those that came along
         }

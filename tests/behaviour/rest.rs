@@ -17,7 +17,10 @@ fn slope_and(slope: f64, friction: f64, bodies: impl IntoIterator<Item = Body>) 
 }
 
 fn run(scene: &Scene, end: f64) -> Trajectory {
-    scene.run(0.0..end, &RunOptions::tolerance(1e-9).estimate(false)).unwrap()
+    match scene.run(0.0..end, &RunOptions::tolerance(1e-9).estimate(false)) {
+        Ok(run) => run,
+        Err(error) => panic!("{error}"),
+    }
 }
 
 fn last(run: &Trajectory, body: usize) -> bryla::BodyMotion {
