@@ -131,10 +131,7 @@ impl Simulation {
         if now >= self.end {
             return Ok(());
         }
-        while self.lanes[lane].pending.is_none() || self.lanes[lane].flight.front() <= now {
-            self.finish_step(lane, record)?;
-            self.take_step(lane, record)?;
-        }
+        self.step_over(lane, now, record)?;
 
         // as long as the body takes for some of its radii
         let front = self.lanes[lane].flight.front();
@@ -167,6 +164,20 @@ impl Simulation {
             if other != body && plan.may_meet(body, other) {
                 self.search(body, other, now)?;
             }
+        }
+        Ok(())
+    }
+
+    /// Steps until the motion of a lane is known beyond `now` [s].
+    fn step_over(
+        &mut self,
+        lane: usize,
+        now: f64,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
+        while now < self.end && (self.lanes[lane].pending.is_none() || self.lanes[lane].flight.front() <= now) {
+            self.finish_step(lane, record)?;
+            self.take_step(lane, record)?;
         }
         Ok(())
     }
@@ -309,6 +320,7 @@ impl Simulation {
         lanes.sort_unstable();
         for &lane in &lanes {
             self.begin_flight(lane, time, &cluster, record)?;
+            self.step_over(lane, time.value, record)?;
         }
         for &lane in &lanes {
             for &body in &plan.groups()[self.lanes[lane].group].members {
