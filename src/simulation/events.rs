@@ -62,6 +62,8 @@ struct Cluster {
     contacts: Vec<Contact>,
     /// Bodies that rest from here on.
     resting: Vec<usize>,
+    /// Whether bodies that rest stay where they are, since nothing comes with speed.
+    is_gentle: bool,
 }
 
 impl Simulation {
@@ -309,7 +311,11 @@ impl Simulation {
         for (place, &body) in cluster.bodies.iter().enumerate() {
             let Some((lane, _)) = self.places[body] else { continue };
             let rests = cluster.resting.contains(&body);
-            let woken = any && self.is_held(body) && !rests && plan.scene().bodies[body].response == Response::Bounce;
+            let woken = any
+                && !cluster.is_gentle
+                && self.is_held(body)
+                && !rests
+                && plan.scene().bodies[body].response == Response::Bounce;
             if woken {
                 self.lanes[lane].held.retain(|held| *held != body);
             }
@@ -345,6 +351,7 @@ impl Simulation {
             touching: Vec::new(),
             contacts: Vec::new(),
             resting: Vec::new(),
+            is_gentle: false,
         };
         for body in [a, b] {
             cluster.add(body, self.motion_at(body, time));
@@ -422,7 +429,8 @@ impl Simulation {
     /// v_hop = √(2 a HOP size)        v_rest = √(2 a ε)        a: the loads' acceleration
     /// ```
     ///
-    /// u is the fastest approach of the cluster. Hops carry a lasting contact: their impulses in the mean are
+    /// u is the fastest approach of the cluster. Below `v_hop` bodies that rest already count as fixed, unless
+    /// the equilibrium fails. Hops carry a lasting contact: their impulses in the mean are
     /// its forces, friction included, with an error of first order in `v_hop`.
     fn respond(
         &mut self,
@@ -445,16 +453,18 @@ impl Simulation {
         let mut kind = EventKind::Bounce;
         let mut contacts = cluster.contacts.clone();
         if approach < hop {
+            cluster.is_gentle = true;
             let plastic: Vec<Contact> = contacts.iter().map(|c| c.clone().restitution(0.0)).collect();
             let after = self.collide(cluster, &cluster.motions, &plastic);
             let after = after.map_err(|why| refused(self, &cluster.bodies, why))?;
             let left = self.fastest(cluster, &after);
             let dies = left <= DIES * approach.max(rest);
-            if dies
-                && approach <= rest
-                && self.may_rest(cluster, &pulls).map_err(|why| refused(self, &cluster.bodies, why))?
-            {
-                return Ok(self.lay_down(cluster, before, &after, time, iterations));
+            if dies && approach <= rest {
+                cluster.is_gentle = false;
+                if self.may_rest(cluster, &pulls).map_err(|why| refused(self, &cluster.bodies, why))? {
+                    self.lay_down(cluster, before, &after, time, iterations);
+                    return Ok(());
+                }
             }
             if !dies || approach <= rest {
                 kind = EventKind::Hop;
@@ -482,7 +492,7 @@ impl Simulation {
         contacts: &[Contact],
     ) -> Result<Collision, ClusterError> {
         let body = |(&body, motion): (&usize, &BodyMotion)| {
-            if self.places[body].is_none() {
+            if self.places[body].is_none() || (cluster.is_gentle && self.is_held(body)) {
                 ClusterBody::driven(motion)
             } else {
                 ClusterBody::free(motion, &self.plan.bodies()[body].properties.inv_inertia())
@@ -571,7 +581,8 @@ impl Simulation {
     fn lift(&self, cluster: &mut Cluster, speed: f64) {
         let mass = |place: usize| {
             let body = cluster.bodies[place];
-            if self.places[body].is_none() { f64::INFINITY } else { cluster.motions[place].mass }
+            let stays = self.places[body].is_none() || (cluster.is_gentle && self.is_held(body));
+            if stays { f64::INFINITY } else { cluster.motions[place].mass }
         };
         let masses: Vec<f64> = (0..cluster.bodies.len()).map(mass).collect();
         for _ in 0..LIFTS {
@@ -582,6 +593,9 @@ impl Simulation {
                 let [v_a, v_b] = [a, b].map(|k| cluster.motions[k].velocity_at(&contact.point));
                 let missing = speed - n.dot(&(v_b - v_a));
                 if missing <= 1e-3 * speed {
+                    continue;
+                }
+                if masses[a].is_infinite() && masses[b].is_infinite() {
                     continue;
                 }
                 parted = false;
