@@ -171,14 +171,11 @@ impl<'a> Search<'a> {
         let gap = look.closest.signed_distance;
         let mut phase = if gap > eps_here {
             Phase::Free
-        } else if gap < -self.rounding(&look, start, from) {
+        } else if gap < -eps_here {
             return Ok(self.found(Outcome::Overlap, from, 0));
         } else {
-            Phase::Leaving(if look.closest.lower > 0.0 {
-                0.5 * look.closest.lower
-            } else {
-                gap.min(0.0) - LEAST_SINK * eps_here
-            })
+            // it may sink by what rounding hides, else not even the opening of the gap could be proved
+            Phase::Leaving((0.5 * look.closest.lower).min(gap - LEAST_SINK * look.error))
         };
         let mut stays = 0;
 
@@ -191,7 +188,7 @@ impl<'a> Search<'a> {
                         return Ok(self.found(Outcome::Stalled, t, round));
                     }
                     // what comes with speed is an impact; what hardly moves may be about to leave
-                    let ahead = self.advance(&look, -eps_here, to - t);
+                    let ahead = self.advance(&look, -eps_here, to - t, TRIALS);
                     if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
                         return Ok(self.found(Outcome::At, t, round));
                     }
@@ -210,7 +207,8 @@ impl<'a> Search<'a> {
                 Phase::Leaving(floor) => floor,
                 Phase::Grazing(_) => -eps_here,
             };
-            let step = self.advance(&look, level, to - t);
+            let trials = if matches!(phase, Phase::Free) { TRIALS } else { TRIALS_WITHIN };
+            let step = self.advance(&look, level, to - t, trials);
             if !matches!(phase, Phase::Free) {
                 stays += 1;
             }
@@ -285,7 +283,7 @@ impl<'a> Search<'a> {
 
     /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
     /// above `level` [m].
-    fn advance(&mut self, look: &Look, level: f64, left: f64) -> f64 {
+    fn advance(&mut self, look: &Look, level: f64, left: f64, trials: u32) -> f64 {
         // the proposal: where the line through the gap meets the level; no bound reaches beyond it
         let proposed = if look.closing > 0.0 { (look.closest.signed_distance - level) / look.closing } else { left };
         let proposed = if proposed < left { proposed.max(0.0) } else { left };
@@ -293,7 +291,7 @@ impl<'a> Search<'a> {
         let mut best = 0.0_f64;
         for turning in self.turnings(look).into_iter().flatten() {
             let mut h = proposed;
-            for _ in 0..TRIALS {
+            for _ in 0..trials {
                 let proved = self.proved(look, &turning, level, h);
                 best = best.max(proved);
                 if proved >= NEARLY * h {
@@ -469,6 +467,9 @@ fn crossing(c: f64, b: f64, k: f64) -> f64 {
 const ROUNDS: u32 = 100_000;
 /// How often a bound is tried with another look ahead [-].
 const TRIALS: u32 = 4;
+/// The same within ε [-]: what touches may leave in one point while another comes from nearby, and the
+/// look ahead must become short enough to tell them apart.
+const TRIALS_WITHIN: u32 = 16;
 /// A bound that proves so much of what it looked ahead is good enough [-].
 const NEARLY: f64 = 0.5;
 /// Rounding of a separation from supports, in ε of the pair's size [-]: 29/2 of the radii and 10/2 of the
@@ -486,7 +487,7 @@ const SWEEPS: f64 = 1.0;
 const LEAST_STAY: f64 = 10.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].
 const SLOW: f64 = 1.0e4;
-/// How far a pair that touches to rounding may sink while it leaves, in ε [-].
-const LEAST_SINK: f64 = 1.0 / 64.0;
+/// How far a pair that touches to rounding may sink while it leaves, in errors of a separation [-].
+const LEAST_SINK: f64 = 4.0;
 /// Rounds within ε after which a pair is said to stay there [-].
 const STAYS: u32 = 256;
