@@ -64,9 +64,9 @@ fn main() {
             let found = search(&case, None, Finder::Guaranteed);
             rounds += found.iterations;
             hits += usize::from(found.outcome == Outcome::At);
-            times.push(least_time(|| drop(black_box(search(&case, None, Finder::Guaranteed)))));
+            times.push(least_time(|| _ = black_box(search(&case, None, Finder::Guaranteed))));
             if let Some(pair) = parry::Pair::new(&case) {
-                parry_times.push(least_time(|| drop(black_box(pair.cast()))));
+                parry_times.push(least_time(|| _ = black_box(pair.cast())));
             }
         }
         println!(
@@ -93,7 +93,7 @@ fn main() {
                 let found = search(&case, eps, finder);
                 rounds += found.iterations;
                 queries += found.queries;
-                times.push(least_time(|| drop(black_box(search(&case, eps, finder)))));
+                times.push(least_time(|| _ = black_box(search(&case, eps, finder))));
             }
             println!(
                 "{:<11} {eps:>8.0e} {:>7} {:>8.2} {:>8.2} {:>9.2}",

@@ -28,8 +28,8 @@ pub(super) struct Path<'a> {
 
 #[derive(Debug, Clone, Copy)]
 enum Kind<'a> {
-    /// The body stays where it is, or moves uniformly.
-    Uniform(BodyMotion),
+    /// The body stays where it is.
+    Resting(BodyMotion),
     /// Polynomials of position, from `at`, and of the quaternion, from `at + 6`; `offset` from the
     /// piece's start [s].
     Polynomial { segment: &'a Segment, coefficients: &'a [f64], at: usize, offset: f64 },
@@ -40,13 +40,7 @@ enum Kind<'a> {
 impl<'a> Path<'a> {
     /// A body that rests.
     pub(super) fn resting(motion: &BodyMotion, center: Vector3) -> Self {
-        let still = BodyMotion { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros(), ..*motion };
-        Self { kind: Kind::Uniform(still), center }
-    }
-
-    /// A body that is driven uniformly: its motion at the path's beginning.
-    pub(super) fn driven(motion: &BodyMotion, center: Vector3) -> Self {
-        Self { kind: Kind::Uniform(*motion), center }
+        Self { kind: Kind::Resting(*motion), center }
     }
 
     /// Member `member` of a group with these charts, from `offset` [s] after the start of a piece.
@@ -117,10 +111,8 @@ impl Moving for Path<'_> {
 
     fn at(&self, t: f64) -> Instant {
         match self.kind {
-            Kind::Uniform(motion) => {
-                let turn = quaternion::exp(&(t * motion.angular_velocity));
-                let center = motion.position + t * motion.velocity;
-                self.instant(center, &(turn * motion.orientation), motion.velocity, motion.angular_velocity)
+            Kind::Resting(motion) => {
+                self.instant(motion.position, &motion.orientation, Vector3::zeros(), Vector3::zeros())
             }
             Kind::Polynomial { segment, coefficients, at, offset } => {
                 let (n, h) = (segment.dimension, segment.length);
@@ -140,7 +132,7 @@ impl Moving for Path<'_> {
 
     fn bounds(&self, from: f64, to: f64) -> MotionBounds {
         match self.kind {
-            Kind::Uniform(motion) => MotionBounds::uniform(motion.angular_velocity.norm()),
+            Kind::Resting(_) => MotionBounds::uniform(0.0),
             Kind::Polynomial { segment, coefficients: c, at, offset } => {
                 let (n, h) = (segment.dimension, segment.length);
                 let (a, b) = ((offset + from) / h, (offset + to) / h);

@@ -12,6 +12,7 @@ mod freedoms;
 mod layers;
 mod order;
 mod promises;
+mod rest;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};
 
