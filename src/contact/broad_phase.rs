@@ -1,6 +1,6 @@
 //! Which bodies may meet: a tree of boxes that hold all that each body sweeps in the time ahead.
 //!
-//! A box tree after Box2D's and Bullet's dynamic trees: a leaf is put beside the node whose box grows
+//! A box tree after those of game engines (Catto's and Presson's dynamic trees): a leaf is put beside the node whose box grows
 //! least by it (the surface heuristic of Goldsmith and Salmon 1987), and the way up is balanced by
 //! rotations, so that inserting, moving and asking cost O(log n). Half spaces have no box and stay outside.
 
@@ -257,15 +257,16 @@ mod tests {
     fn the_tree_finds_what_looking_at_all_finds() {
         // boxes that are put, moved and removed; every answer against a look at all
         let mut state = 1u64;
-        let mut random = move || {
+        let mut bits = move || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / 9007199254740992.0
+            state >> 11
         };
         let mut tree = Tree::default();
         let mut boxes: Vec<Option<Aabb>> = vec![None; 300];
         let (mut found, mut total) = (Vec::new(), 0);
         for _ in 0..5000 {
-            let item = (random() * 300.0) as usize;
+            let item = usize::try_from(bits() % 300).unwrap();
+            let mut random = || bits() as f64 / 9007199254740992.0;
             let aabb = Aabb::of_ball(&(10.0 * Vector3::new(random(), random(), random())), random());
             if random() < 0.2 {
                 tree.remove(item);

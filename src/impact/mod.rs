@@ -271,7 +271,7 @@ mod tests {
         let (v, w) = (0.8, 1000.0);
         let gap = |t: f64| 1.5 - v * t - libm::cos(w * t).abs();
         let half_turn = std::f64::consts::PI / w;
-        let near = (1..).map(|k| f64::from(k) * half_turn).find(|t| gap(*t) < 0.0).unwrap();
+        let near = (1..1000).map(|k| f64::from(k) * half_turn).find(|t| gap(*t) < 0.0).unwrap();
         let (mut a, mut b) = (near - 0.5 * half_turn, near);
         for _ in 0..100 {
             let middle = 0.5 * (a + b);

@@ -211,7 +211,6 @@ impl Simulation {
             let Found { outcome, time, iterations: rounds, until: searched, .. } = found.map_err(refused)?;
             iterations += rounds;
             match outcome {
-                Outcome::Clear => return Ok(()),
                 Outcome::At | Outcome::AlreadyTouching => {
                     let flights = [a, b].map(|i| self.flight_number(i));
                     let what = What::Touch { bodies: [a, b], flights, iterations };
@@ -219,7 +218,7 @@ impl Simulation {
                     return Ok(());
                 }
                 Outcome::Grazing if searched > from && searched < until => from = searched,
-                Outcome::Grazing => return Ok(()),
+                Outcome::Clear | Outcome::Grazing => return Ok(()),
                 Outcome::Overlap => {
                     let depth = -self.closest(a, b, Time::new(now) + time)?.signed_distance;
                     return Err(self.failure_of(&[a, b], now + time, Failure::Overlap(depth)));
@@ -468,7 +467,9 @@ impl Simulation {
             }
             if !dies || approach <= rest {
                 kind = EventKind::Hop;
-                contacts.iter_mut().for_each(|c| c.restitution = 1.0);
+                for contact in &mut contacts {
+                    contact.restitution = 1.0;
+                }
             }
         }
 
@@ -836,7 +837,7 @@ fn surface<'a>(shape: Option<&'a Shape>, collider: &'a Collider, piece: usize) -
 }
 
 /// The convex piece of this number, nested ones in order; else how many there are.
-fn piece_of<'a>(shape: &'a Shape, number: usize, pose: Pose) -> Result<(&'a Shape, Pose), usize> {
+fn piece_of(shape: &Shape, number: usize, pose: Pose) -> Result<(&Shape, Pose), usize> {
     let Shape::Compound(compound) = shape else {
         return if number == 0 { Ok((shape, pose)) } else { Err(1) };
     };

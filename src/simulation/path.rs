@@ -29,7 +29,7 @@ pub(super) struct Path<'a> {
 #[derive(Debug, Clone, Copy)]
 enum Kind<'a> {
     /// The body stays where it is.
-    Resting(BodyMotion),
+    Resting { position: Vector3, orientation: Quaternion },
     /// Polynomials of position, from `at`, and of the quaternion, from `at + 6`; `offset` from the
     /// piece's start [s].
     Polynomial { segment: &'a Segment, coefficients: &'a [f64], at: usize, offset: f64 },
@@ -40,7 +40,7 @@ enum Kind<'a> {
 impl<'a> Path<'a> {
     /// A body that rests.
     pub(super) fn resting(motion: &BodyMotion, center: Vector3) -> Self {
-        Self { kind: Kind::Resting(*motion), center }
+        Self { kind: Kind::Resting { position: motion.position, orientation: motion.orientation }, center }
     }
 
     /// Member `member` of a group with these charts, from `offset` [s] after the start of a piece.
@@ -84,11 +84,8 @@ fn derivatives<const N: usize>(c: &[f64], n: usize, at: usize, s: f64) -> [[f64;
             d[0][i] = d[0][i] * s + term[at + i];
         }
     }
-    for i in 0..N {
-        d[2][i] *= 2.0;
-        d[3][i] *= 6.0;
-    }
-    d
+    let [value, first, second, third] = d;
+    [value, first, second.map(|x| 2.0 * x), third.map(|x| 6.0 * x)]
 }
 
 /// Bound of the derivative of this order of `N` polynomials for |s| ≤ `s_max`.
@@ -111,8 +108,8 @@ impl Moving for Path<'_> {
 
     fn at(&self, t: f64) -> Instant {
         match self.kind {
-            Kind::Resting(motion) => {
-                self.instant(motion.position, &motion.orientation, Vector3::zeros(), Vector3::zeros())
+            Kind::Resting { position, orientation } => {
+                self.instant(position, &orientation, Vector3::zeros(), Vector3::zeros())
             }
             Kind::Polynomial { segment, coefficients, at, offset } => {
                 let (n, h) = (segment.dimension, segment.length);
@@ -132,7 +129,7 @@ impl Moving for Path<'_> {
 
     fn bounds(&self, from: f64, to: f64) -> MotionBounds {
         match self.kind {
-            Kind::Resting(_) => MotionBounds::uniform(0.0),
+            Kind::Resting { .. } => MotionBounds::uniform(0.0),
             Kind::Polynomial { segment, coefficients: c, at, offset } => {
                 let (n, h) = (segment.dimension, segment.length);
                 let (a, b) = ((offset + from) / h, (offset + to) / h);

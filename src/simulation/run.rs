@@ -383,7 +383,7 @@ fn pass(
     // those that may meet go by events; the others each on its own
     let mut broken: Option<SimulationError> = None;
     let alone = simulation.lanes_alone();
-    let part = |lanes: usize| lanes as f64 / lanes as f64;
+    let part = |of_all: usize| of_all as f64 / lanes as f64;
     let meeting = lanes - alone.len();
     if meeting > 0 {
         let mut tell = |done: f64| observer(Progress { fraction: part(meeting) * done, pass: number });
