@@ -12,6 +12,8 @@
 //! The second table is what ε costs: rounds, queries and time of each finder, on those pairs of `tumble`
 //! that end in overlap, where all three see the impact.
 
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts, never negative")]
+
 #[allow(clippy::unwrap_used, reason = "a bench that cannot set itself up has failed")]
 #[path = "../tests/impact_oracle/families.rs"]
 mod families;

@@ -1,8 +1,8 @@
-//! What one step of one body costs, method by method: alone, under an effect, and with its motion kept.
+//! What one step of one body costs, method by method: alone, with its motion kept, and both under an effect.
 //!
 //! Times are those of the thread's processor clock, so that other programs do not count.
 
-use bryla::integrator::Control;
+use bryla::integrator::{Control, Flight};
 use bryla::math::{Matrix3, Vector3};
 use bryla::{Body, Method, RunOptions, Scene, UniformGravity};
 use cpu_time::ThreadTime;
@@ -50,17 +50,40 @@ fn scene() -> Scene {
     scene
 }
 
-fn step(c: &mut Criterion<ProcessorTime>, group: &str, scene: &Scene, keep: bool) {
+/// Length of a step [s].
+const STEP: f64 = 0.01;
+
+/// A flight of the scene by the method.
+fn flight(scene: &Scene, method: Method) -> Box<dyn Flight> {
+    let plan = scene.compile(&RunOptions::method(method).step(STEP)).expect("a valid scene");
+    plan.flight(0, 0.0, &Control::Step(STEP)).expect("the first group")
+}
+
+/// Steps that follow each other, nobody looking: the integrator alone.
+fn kernel(c: &mut Criterion<ProcessorTime>, group: &str, scene: &Scene) {
     let mut group = c.benchmark_group(group);
     for &method in Method::ALL {
-        let plan = scene.compile(&RunOptions::method(method).step(0.01)).expect("a valid scene");
-        let mut flight = plan.flight(0, 0.0, &Control::Step(0.01)).expect("the first group");
+        let mut flight = flight(scene, method);
+        group.bench_function(method.name(), |b| {
+            b.iter_custom(|steps| {
+                let last = flight.front() + (steps as f64 - 0.5) * STEP;
+                let start = ThreadTime::now();
+                flight.advance_past(last, f64::INFINITY).expect("steps");
+                start.elapsed()
+            });
+        });
+    }
+}
+
+/// A step at a call, whose motion is kept.
+fn recorded(c: &mut Criterion<ProcessorTime>, group: &str, scene: &Scene) {
+    let mut group = c.benchmark_group(group);
+    for &method in Method::ALL {
+        let mut flight = flight(scene, method);
         group.bench_function(method.name(), |b| {
             b.iter(|| {
                 flight.advance(f64::INFINITY).expect("a step");
-                if keep {
-                    flight.interpolate().expect("a finite motion");
-                }
+                flight.interpolate().expect("a finite motion");
             });
         });
     }
@@ -68,10 +91,11 @@ fn step(c: &mut Criterion<ProcessorTime>, group: &str, scene: &Scene, keep: bool
 
 fn benches(c: &mut Criterion<ProcessorTime>) {
     let mut scene = scene();
-    step(c, "step", &scene, false);
-    step(c, "step and its motion", &scene, true);
+    kernel(c, "step", &scene);
+    recorded(c, "step and its motion", &scene);
     scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
-    step(c, "step under gravity", &scene, false);
+    kernel(c, "step under gravity", &scene);
+    recorded(c, "step and its motion under gravity", &scene);
 }
 
 criterion_group! {

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::freedom::Chart;
 use crate::integrator::Segment;
 use crate::math::{Pose, Vector3};
-use crate::plan::{Binding, Group, Plan};
+use crate::plan::{Any, Binding, Group, Plan};
 use crate::report::Report;
 use crate::scene::{BodyId, Record};
 use crate::state::{BodyMotion, BodyState, Load, Moment};
@@ -422,7 +422,7 @@ impl Trajectory {
         for (index, spec) in self.plan.groups().iter().enumerate() {
             let Some(phase) = self.phases.iter().rfind(|p| p.group == index && p.start <= time) else { continue };
             let motions: Vec<_> = spec.members.iter().map(|&i| all[i]).collect();
-            let mut group = Group::<Vec<f64>>::new(phase.charts.clone(), motions, spec.bindings.clone());
+            let mut group = Group::<Any>::new(phase.charts.clone(), motions, spec.bindings.clone());
             for (&i, reaction) in spec.members.iter().zip(group.reactions(Moment { time, since: time })) {
                 reactions[i] = reaction;
             }

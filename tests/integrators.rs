@@ -107,6 +107,40 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
     }
 }
 
+/// A body in syrup, driven by a force and a torque that swing: drag stops it in 1e-5 s, the span is 4 s.
+fn syrup() -> Scene {
+    let mut scene = Scene::new();
+    let body = Body::with_inertia("body", 2.0, inertia([0.5, 0.5, 0.5])).velocity([1.0, 0.0, 0.0]);
+    scene.add(body.angular_velocity([0.0, 0.0, 3.0])).unwrap();
+    scene.add_effect(Drag::new(2.0e5, 0.0).angular(0.5e5, 0.0));
+    scene.add_effect(Wrench::new("body", [4.0e5, 0.0, 0.0], [0.0, 0.0, 1.0e5]).oscillating(3.0, 0.0));
+    scene
+}
+
+#[test]
+fn strong_drag_does_not_dictate_the_step() {
+    // v′ = −λ v + a sin ωt:  v = a (λ sin ωt − ω cos ωt)/(λ² + ω²) + (v₀ + a ω/(λ² + ω²)) exp(−λ t), the same for
+    // the spin about a fixed axis; x and the angle are the integrals
+    let (lambda, w, t) = (1.0e5_f64, 3.0_f64, 4.0_f64);
+    let moved = |a: f64, v0: f64| {
+        let k = a / (lambda * lambda + w * w);
+        k * (lambda / w * (1.0 - (w * t).cos()) - (w * t).sin()) + (v0 + k * w) / lambda
+    };
+    let truth = (moved(2.0e5, 1.0), moved(2.0e5, 3.0));
+
+    let run = run(&syrup(), [0.0, t], &RunOptions::tolerance(1e-8).record(Record::End));
+    assert_eq!(run.plan().groups()[0].method, Method::Radau5);
+    let report = run.report();
+    let end = run.states(run.times().len() - 1)[0];
+    let angle = 2.0 * end.orientation.k.atan2(end.orientation.w);
+    let turn = (angle - truth.1).rem_euclid(std::f64::consts::TAU);
+    let error = ((end.position.x - truth.0) / report.length_scale).abs().max(turn.min(std::f64::consts::TAU - turn));
+    assert_eq!(report.met, Some(true));
+    assert!(error <= report.error_estimate.unwrap(), "{error:e} above {:e}", report.error_estimate.unwrap());
+    // an explicit step of order 8 is unstable above 6/λ: 70,000 steps; the motion itself is 2 periods of a sine
+    assert!(report.counts.steps < 3000, "{} steps", report.counts.steps);
+}
+
 /// Motions with a closed form: tumbling in falling air, a top without weight, a disc on a slope, a wheel.
 fn closed() -> Scene {
     let mut scene = Scene::new();

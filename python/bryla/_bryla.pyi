@@ -34,6 +34,7 @@ _Method: TypeAlias = Literal[
     "axes2",
     "cf4",
     "buss2",
+    "radau5",
     "exact",
 ]
 _Response: TypeAlias = Literal["bounce", "stick"]
@@ -1756,112 +1757,264 @@ def resume(path: _Path) -> Simulation:
 
 @final
 class ConvexPolyhedron:
+    """The convex hull of points: vertices, edges, faces.
+
+    Any number of points, repeated, on one plane, line or spot. No vertex is dropped, however thin the
+    body.
+
+    Parameters
+    ----------
+    points : (n, 3) numbers
+        Points [m].
+    """
+
     def __new__(cls, points: npt.ArrayLike) -> ConvexPolyhedron: ...
     @property
-    def vertices(self) -> _Array: ...
+    def vertices(self) -> _Array:
+        """The vertices [m]: array (n, 3)."""
+
     @property
-    def sources(self) -> list[int]: ...
+    def sources(self) -> list[int]:
+        """For each vertex the number of the point that it was given as."""
+
     @property
-    def edges(self) -> list[tuple[int, int]]: ...
+    def edges(self) -> list[tuple[int, int]]:
+        """The two vertices of each edge."""
+
     @property
-    def faces(self) -> list[list[int]]: ...
+    def faces(self) -> list[list[int]]:
+        """The vertices of each face, counterclockwise seen from outside; a polygon has two faces back to
+        back.
+        """
+
     @property
-    def normals(self) -> _Array: ...
+    def normals(self) -> _Array:
+        """The outward unit normals of the faces: array (n, 3) [-]."""
+
     @property
-    def rank(self) -> int: ...
-    def support(self, direction: _Numbers) -> int: ...
+    def rank(self) -> int:
+        """Dimension: 3 a solid, 2 a polygon, 1 a segment, 0 a point."""
+
+    def support(self, direction: _Numbers) -> int:
+        """A vertex that lies farthest in a direction."""
+
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class Collider:
+    """A shape prepared for queries: build it once, ask often.
+
+    Refused are a solid that is not convex (give a compound of convex pieces) and a mesh, which is in
+    its file.
+
+    Parameters
+    ----------
+    shape : a shape or ConvexPolyhedron
+        The shape; poses in queries are those of its own axes.
+    """
+
     def __new__(cls, shape: _Collidable) -> Collider: ...
     @property
-    def part_count(self) -> int: ...
-    def polyhedron(self, part: int = 0) -> ConvexPolyhedron | None: ...
+    def part_count(self) -> int:
+        """How many convex pieces it has: 1, unless it is a compound."""
+
+    def polyhedron(self, part: int = 0) -> ConvexPolyhedron | None:
+        """The polyhedron of a piece, in the piece's axes, which the numbers of its features count in; None
+        where the piece is none.
+        """
+
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class PairCache:
+    """Where a pair's last answer was found, to start the next query of the same pair from.
+
+    Any content is legal, also from another pair or another time: it costs steps, never truth.
+    """
+
     def __new__(cls) -> PairCache: ...
 
 @final
 class ClosestFeatures:
+    """The closest features of two bodies A and B, in world axes."""
+
     @property
-    def signed_distance(self) -> float: ...
+    def signed_distance(self) -> float:
+        """Distance where positive, minus the depth where negative [m]: normal · (point_b − point_a)."""
+
     @property
-    def lower(self) -> float: ...
+    def lower(self) -> float:
+        """The true signed distance is not below this [m]."""
+
     @property
-    def upper(self) -> float: ...
+    def upper(self) -> float:
+        """The true signed distance is not above this [m]."""
+
     @property
-    def state(self) -> _State: ...
+    def state(self) -> _State:
+        """ "separated", "touching" (the interval contains 0) or "overlapping"."""
+
     @property
-    def point_a(self) -> _Array: ...
+    def point_a(self) -> _Array:
+        """The closest or deepest point of A, world axes [m]: array (3,)."""
+
     @property
-    def point_b(self) -> _Array: ...
+    def point_b(self) -> _Array:
+        """The closest or deepest point of B, world axes [m]: array (3,)."""
+
     @property
-    def normal(self) -> _Array: ...
+    def normal(self) -> _Array:
+        """Unit normal from A to B, world axes; valid in every state: array (3,)."""
+
     @property
-    def feature_a(self) -> _Feature: ...
+    def feature_a(self) -> _Feature:
+        """The feature of A that carries point_a: "vertex", "edge", "face" or "surface" (curved), and its
+        number.
+        """
+
     @property
-    def feature_b(self) -> _Feature: ...
+    def feature_b(self) -> _Feature:
+        """The feature of B that carries point_b."""
+
     @property
-    def part_a(self) -> int: ...
+    def part_a(self) -> int:
+        """The piece of A that the feature belongs to, where A is a compound; else 0."""
+
     @property
-    def part_b(self) -> int: ...
+    def part_b(self) -> int:
+        """The piece of B that the feature belongs to, where B is a compound; else 0."""
+
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Rounds of the query."""
+
     @property
-    def rung(self) -> str: ...
+    def rung(self) -> str:
+        """How far the query had to climb: "verified" (the cached vertices still were the answer), "walked"
+        (from the cached features), "searched" or "double_double".
+        """
+
     @property
-    def certified(self) -> bool: ...
+    def certified(self) -> bool:
+        """Whether the interval is as narrow as was asked for. If not, it still contains the true value."""
+
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class ConvexPolygon:
+    """The convex hull of points in the plane.
+
+    Parameters
+    ----------
+    points : (n, 2) numbers
+        Points [m]; repeated or on one line.
+    """
+
     def __new__(cls, points: npt.ArrayLike) -> ConvexPolygon: ...
     @property
-    def vertices(self) -> _Array: ...
-    def plot(self, figure: Figure | None = None) -> Figure: ...
+    def vertices(self) -> _Array:
+        """The vertices, counterclockwise [m]: array (n, 2). Edge k leaves vertex k."""
+
+    def plot(self, figure: Figure | None = None) -> Figure:
+        """Draws the polygon with its Voronoi regions, the lecture's figure 10, and returns the figure;
+        needs matplotlib.
+
+        Parameters
+        ----------
+        figure : matplotlib Figure, optional
+            Where to draw.
+        """
+
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class VoronoiRegion:
+    """The outside points closer to a feature of a polygon than to any other: V(F) of the lecture."""
+
     @property
-    def feature(self) -> _Feature: ...
+    def feature(self) -> _Feature:
+        """Whose region it is: "vertex" or "edge", and its number."""
+
     @property
-    def base(self) -> _Array: ...
+    def base(self) -> _Array:
+        """Where its border starts: the vertex, or both ends of the edge [m]: array (1 or 2, 2)."""
+
     @property
-    def rays(self) -> _Array: ...
-    def contains(self, points: npt.ArrayLike) -> _Array: ...
+    def rays(self) -> _Array:
+        """Unit directions in which its border leaves the first and the last base point: array (2, 2), of a
+        lone point, whose region is the plane, array (0, 2).
+        """
+
+    def contains(self, points: npt.ArrayLike) -> _Array:
+        """Whether points (..., 2) [m] are in the region, its border included: array (...) of 1 and 0. On a
+        border both neighbours say yes.
+        """
+
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class PlanarClosest:
+    """The closest features of two polygons, with the walk that found them."""
+
     @property
-    def signed_distance(self) -> float: ...
+    def signed_distance(self) -> float:
+        """Distance where positive, minus the depth where negative [m]."""
+
     @property
-    def lower(self) -> float: ...
+    def lower(self) -> float:
+        """The true signed distance is not below this [m]."""
+
     @property
-    def upper(self) -> float: ...
+    def upper(self) -> float:
+        """The true signed distance is not above this [m]."""
+
     @property
-    def state(self) -> _State: ...
+    def state(self) -> _State:
+        """ "separated", "touching" or "overlapping"."""
+
     @property
-    def point_a(self) -> _Array: ...
+    def point_a(self) -> _Array:
+        """The closest or deepest point of A [m]: array (2,)."""
+
     @property
-    def point_b(self) -> _Array: ...
+    def point_b(self) -> _Array:
+        """The closest or deepest point of B [m]: array (2,)."""
+
     @property
-    def normal(self) -> _Array: ...
+    def normal(self) -> _Array:
+        """Unit normal from A to B: array (2,)."""
+
     @property
-    def feature_a(self) -> _Feature: ...
+    def feature_a(self) -> _Feature:
+        """The feature of A that carries point_a: "vertex" or "edge", and its number."""
+
     @property
-    def feature_b(self) -> _Feature: ...
+    def feature_b(self) -> _Feature:
+        """The feature of B that carries point_b."""
+
     @property
-    def path(self) -> list[tuple[_Feature, _Feature, _Point2, _Point2]]: ...
+    def path(self) -> list[tuple[_Feature, _Feature, _Point2, _Point2]]:
+        """The pairs of features that the walk visited, each with its closest points: tuples (feature_a,
+        feature_b, (x, y) of a, (x, y) of b).
+        """
+
     @property
-    def certified(self) -> bool: ...
+    def certified(self) -> bool:
+        """Whether the interval is as narrow as rounding allows."""
+
     @property
-    def outlines(self) -> list[_Array]: ...
-    def plot(self, figure: Figure | None = None) -> Figure: ...
+    def outlines(self) -> list[_Array]:
+        """The corners of A and of B in the world [m]: two arrays (n, 2)."""
+
+    def plot(self, figure: Figure | None = None) -> Figure:
+        """Draws both polygons, the Voronoi regions of A, and the walk; returns the figure. Needs
+        matplotlib.
+
+        Parameters
+        ----------
+        figure : matplotlib Figure, optional
+            Where to draw.
+        """
 
 def closest_features(
     a: _Collidable,
@@ -1870,15 +2023,81 @@ def closest_features(
     pose_b: Pose,
     cache: PairCache | None = None,
     accuracy: _Accuracy = "exact",
-) -> ClosestFeatures: ...
+) -> ClosestFeatures:
+    """Closest features of two bodies: one signed distance, with an interval that contains the true one.
+
+    Parameters
+    ----------
+    a, b : a shape, ConvexPolyhedron or Collider
+        The bodies; a shape is prepared at each call, a Collider once.
+    pose_a, pose_b : Pose
+        Where the shapes' own axes stand.
+    cache : PairCache, optional
+        A start, left with this answer: use one for each pair that is asked again and again.
+    accuracy : "exact", "yes_no" or float
+        When the query may stop: at an interval as narrow as rounding allows, as soon as the state is
+        known, or at this fraction of the size (both radii and the distance of the centres).
+
+    Returns
+    -------
+    ClosestFeatures
+    """
+
 def closest_features_many(
     a: _Collidable, poses_a: _Poses, b: _Collidable, poses_b: _Poses, accuracy: _Accuracy = "exact"
-) -> dict[str, npt.NDArray[Any]]: ...
+) -> dict[str, npt.NDArray[Any]]:
+    """Closest features for many poses of one pair, other threads running meanwhile.
+
+    Each query starts from the one before it, so order the poses along the motion.
+
+    Parameters
+    ----------
+    a, b : a shape, ConvexPolyhedron or Collider
+        The bodies.
+    poses_a, poses_b : Pose, or a pair of arrays
+        One pose, or positions (..., 3) [m] and orientations (..., 4), which mean q/|q|.
+    accuracy : "exact", "yes_no" or float
+        As for closest_features.
+
+    Returns
+    -------
+    dict of arrays
+        "signed_distance", "lower", "upper": (...) [m]; "point_a", "point_b", "normal": (..., 3), world
+        axes; "state": (...), 1 separated, 0 touching, −1 overlapping; "certified": (...), 1 or 0.
+    """
+
 def closest_features_planar(
     a: ConvexPolygon,
     pose_a: _Numbers,
     b: ConvexPolygon,
     pose_b: _Numbers,
     start: tuple[_Feature, _Feature] | None = None,
-) -> PlanarClosest: ...
-def voronoi_regions(polygon: ConvexPolygon) -> list[VoronoiRegion]: ...
+) -> PlanarClosest:
+    """Closest features of two convex polygons by the lecture's walk over Voronoi regions.
+
+    Parameters
+    ----------
+    a, b : ConvexPolygon
+        The polygons.
+    pose_a, pose_b : 3 numbers
+        Position x, y [m] of each polygon's origin, and its angle [rad], counterclockwise.
+    start : pair of features, optional
+        Where the walk begins, such as (("vertex", 0), ("edge", 2)); without it at the first vertices.
+
+    Returns
+    -------
+    PlanarClosest
+    """
+
+def voronoi_regions(polygon: ConvexPolygon) -> list[VoronoiRegion]:
+    """The Voronoi regions of a polygon's vertices and edges, counterclockwise from the first vertex.
+
+    Parameters
+    ----------
+    polygon : ConvexPolygon
+        The polygon.
+
+    Returns
+    -------
+    list of VoronoiRegion
+    """

@@ -141,7 +141,8 @@ def draw_regions(axes: Axes, regions: Iterable[VoronoiRegion], extent: float) ->
         outline = np.array([*border, 0.5 * (first + last) + 2.0 * far * middle])
         axes.fill(*outline.T, facecolor=color, edgecolor=color, alpha=0.25, zorder=1)
         name = f"V({kind[0]}{number})"
-        axes.text(*(0.5 * (first + last) + 0.3 * extent * middle), name, ha="center", va="center", color=color)
+        x, y = 0.5 * (first + last) + 0.3 * extent * middle
+        axes.text(x, y, name, ha="center", va="center", color=color)
 
 
 def walk(found: PlanarClosest, figure: Figure | None) -> Any:
@@ -150,7 +151,8 @@ def walk(found: PlanarClosest, figure: Figure | None) -> Any:
     axes = figure.subplots()
     for outline, name in zip(found.outlines, "AB", strict=True):
         axes.fill(*outline.T, facecolor="0.92", edgecolor="black", zorder=2)
-        axes.text(*outline.mean(axis=0), name, ha="center", va="center")
+        x, y = outline.mean(axis=0)
+        axes.text(x, y, name, ha="center", va="center")
     for number, (kind_a, kind_b, a, b) in enumerate(found.path, start=1):
         shade = 0.25 + 0.75 * number / len(found.path)
         label = f"{number}: {kind_a[0]} {kind_a[1]} to {kind_b[0]} {kind_b[1]}"

@@ -386,6 +386,9 @@ impl<'py> FromPyObject<'_, 'py> for Poses {
     }
 }
 
+/// One column of many answers.
+type Get<T> = fn(&ClosestFeatures) -> T;
+
 /// Closest features for many poses of one pair, other threads running meanwhile.
 ///
 /// Each query starts from the one before it, so order the poses along the motion.
@@ -409,14 +412,14 @@ impl<'py> FromPyObject<'_, 'py> for Poses {
     signature = (a, poses_a, b, poses_b, accuracy=Stop(Accuracy::Exact)),
     text_signature = "(a, poses_a, b, poses_b, accuracy=\"exact\")"
 )]
-pub(crate) fn closest_features_many<'py>(
-    py: Python<'py>,
+pub(crate) fn closest_features_many(
+    py: Python<'_>,
     a: AnyBody,
     poses_a: Poses,
     b: AnyBody,
     poses_b: Poses,
     accuracy: Stop,
-) -> Result<Bound<'py, PyDict>> {
+) -> Result<Bound<'_, PyDict>> {
     let leading = match (&poses_a.1, &poses_b.1) {
         (Some(x), Some(y)) if x != y => {
             let message = format!("as many poses of A as of B wanted, got {x:?} and {y:?}");
@@ -433,19 +436,19 @@ pub(crate) fn closest_features_many<'py>(
     })?;
 
     let answer = PyDict::new(py);
-    let scalars: [(&str, fn(&ClosestFeatures) -> f64); 3] =
+    let scalars: [(&str, Get<f64>); 3] =
         [("signed_distance", |f| f.signed_distance), ("lower", |f| f.lower), ("upper", |f| f.upper)];
     for (name, get) in scalars {
         answer.set_item(name, array(py, &leading, found.iter().map(get).collect())?)?;
     }
-    let vectors: [(&str, fn(&ClosestFeatures) -> [f64; 3]); 3] =
+    let vectors: [(&str, Get<[f64; 3]>); 3] =
         [("point_a", |f| f.point_a.into()), ("point_b", |f| f.point_b.into()), ("normal", |f| f.normal.into())];
     let mut shape = leading.clone();
     shape.push(3);
     for (name, get) in vectors {
         answer.set_item(name, array(py, &shape, found.iter().flat_map(get).collect())?)?;
     }
-    let words: [(&str, fn(&ClosestFeatures) -> i8); 2] = [
+    let words: [(&str, Get<i8>); 2] = [
         ("state", |f| match f.state {
             State::Separated => 1,
             State::Touching => 0,
@@ -576,7 +579,7 @@ pub(crate) struct PyPlanarClosest {
 }
 
 /// A point of the plane as an array: (2,).
-fn point2<'py>(py: Python<'py>, p: [f64; 2]) -> PyResult<Array<'py>> {
+fn point2(py: Python<'_>, p: [f64; 2]) -> PyResult<Array<'_>> {
     array(py, &[2], p.to_vec())
 }
 

@@ -82,7 +82,9 @@ def test_accuracy_is_an_argument():
     a, b = bryla.Collider(bryla.Ellipsoid((1, 0.5, 0.3))), bryla.Collider(bryla.Cone(0.4, 0.7))
     pose = bryla.Pose((1.2, 0.9, 0.8), (0.9, 0.1, 0.3, -0.2))
     exact = bryla.closest_features(a, HOME, b, pose)
-    assert exact.upper - exact.lower < 1e-14
+    # 48 roundings of the size: both radii and the distance of the centres
+    size = 1 + math.hypot(0.4, 0.7) + float(np.linalg.norm(pose.position))
+    assert exact.upper - exact.lower < 48 * np.finfo(float).eps * size
     for accuracy in (1e-3, 1e-9, "yes_no"):
         rough = bryla.closest_features(a, HOME, b, pose, accuracy=accuracy)
         assert rough.steps <= exact.steps

@@ -60,8 +60,9 @@ impl Feature {
 /// When a query may stop.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Accuracy {
-    /// At an interval as narrow as rounding allows: `upper − lower ≤ 36 ε size`, mostly 10 to 28 ε size,
-    /// where the size is both radii plus the distance of the centres.
+    /// At an interval as narrow as rounding allows. Of the size, which is both radii plus the distance of
+    /// the centres, it is at most 36 ε for polyhedra, balls and capsules, mostly 10 to 28; 40 ε for
+    /// curved bodies; 52 ε with half spaces and pieces of compounds.
     #[default]
     Exact,
     /// At an interval of this fraction of the size [-].

@@ -59,7 +59,7 @@ pub use collider::{Collidable, Collider};
 pub(crate) use support::Piece;
 
 use crate::error::{Error, Result};
-use crate::math::{Pose, Vector3};
+use crate::math::{Pose, Vector3, quaternion};
 use crate::tolerance::COORDINATE_MAX;
 use collider::{Core, Solid, View};
 
@@ -157,7 +157,9 @@ fn compounds(
     accuracy: Accuracy,
 ) -> Result<ClosestFeatures> {
     // the centres of A's balls, seen from B; a bound of the signed distance of two balls
-    let seen = |center: &Vector3| pose_b.inverse_point(&pose_a.point(center));
+    let unit = |pose: &Pose| Pose { orientation: quaternion::normalized(&pose.orientation), ..*pose };
+    let (from_a, from_b) = (unit(pose_a), unit(pose_b));
+    let seen = |center: &Vector3| from_b.inverse_point(&from_a.point(center));
     let apart = |(center_a, reach_a): (Vector3, f64), (center_b, reach_b): (Vector3, f64)| {
         let distance = (center_b - center_a).norm();
         let slack = BALL_SLACK * (distance + center_a.norm() + center_b.norm() + pose_b.position.norm());

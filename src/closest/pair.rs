@@ -152,11 +152,12 @@ impl Stand<'_> {
     /// Where a point of the body is in the world [m].
     #[inline]
     pub(super) fn point(&self, p: [f64; 3]) -> Vector3 {
-        match self.piece {
-            Some(piece) => self.pose.point(&piece.point(p)),
-            None if p == [0.0; 3] => self.pose.position,
-            None => self.pose.point(&p.into()),
-        }
+        let in_pose = match self.piece {
+            Some(piece) => piece.point(p).into(),
+            None if p == [0.0; 3] => return self.pose.position,
+            None => p,
+        };
+        rotate(&rows(&self.pose.orientation), &Vec3(in_pose)).to_vector() + self.pose.position
     }
 }
 

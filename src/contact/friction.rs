@@ -74,6 +74,14 @@ impl Rubbing<'_> {
             return Rubbed { impulse: plastic, residual, rounds, kept: 1.0 };
         }
 
+        // one contact alone: what the slices come to
+        if let &[e] = restitution {
+            let (impulses, speeds) = ([(1.0 + e) * plastic[0]], vec![(-e * self.q[0]).max(0.0)]);
+            let limit = (self.law == Law::Stronge).then(|| self.stronge_limit(&plastic, restitution));
+            let (impulse, last, kept) = self.restore(&plastic, &impulses, speeds, limit);
+            return Rubbed { impulse, residual: residual.max(last), rounds: 2, kept };
+        }
+
         // mix the normal impulses and velocities of the slices
         let (mut impulses, mut speeds) = (vec![0.0; n], vec![0.0; n]);
         for (weight, elastic) in slices(restitution) {

@@ -34,13 +34,13 @@ pub(super) struct Reflected {
 }
 
 /// Rounds of purely elastic reflections [-]: they end by themselves, mostly after one for each contact, in
-/// wedges after π over the angle (Smith et al. 2012, §4). What is left then is stopped, and loses energy.
+/// wedges after π over the angle. What is left then is stopped, and loses energy.
 const ELASTIC_ROUNDS: u32 = 4096;
 
 /// Rounds for `n` contacts where some are plastic, or rub [-]: these may go on for ever, ever weaker, and the
 /// plastic answer ends them.
 pub(super) fn rounds_for(n: usize) -> u32 {
-    u32::try_from(16 + 8 * n).unwrap_or(u32::MAX)
+    u32::try_from(64 + 16 * n).unwrap_or(u32::MAX)
 }
 
 /// The slices of 0..1 in which the same contacts are elastic: weight and which; the last is all plastic.

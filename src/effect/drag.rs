@@ -60,13 +60,6 @@ impl Drag {
         self.bodies = Some(bodies.into_iter().map(Into::into).collect());
         self
     }
-
-    fn add_to_one(&self, body: &BodyMotion, load: &mut Load) {
-        let u = body.velocity - Vector3::from(self.wind);
-        load.force -= (self.linear + self.quadratic * u.norm()) * u;
-        let w = &body.angular_velocity;
-        load.torque -= (self.angular_linear + self.angular_quadratic * w.norm()) * w;
-    }
 }
 
 impl Effect for Drag {
@@ -96,14 +89,15 @@ impl Effect for Drag {
         ]
     }
 
-    fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
-        for (body, load) in bodies.iter().zip(loads) {
-            self.add_to_one(body, load);
-        }
+    fn add_to_one(&self, _at: Moment, body: &BodyMotion, load: &mut Load) {
+        let u = body.velocity - Vector3::from(self.wind);
+        load.force -= (self.linear + self.quadratic * u.norm()) * u;
+        let w = &body.angular_velocity;
+        load.torque -= (self.angular_linear + self.angular_quadratic * w.norm()) * w;
     }
 
     /// Minus the power of the force on the body: wind that drives a body counts as negative.
-    fn dissipated_power(&self, _at: Moment, bodies: &[BodyMotion]) -> f64 {
-        bodies.iter().map(|body| -power_of(body, |load| self.add_to_one(body, load))).sum()
+    fn dissipated_power(&self, at: Moment, bodies: &[BodyMotion]) -> f64 {
+        -power_of(self, at, bodies)
     }
 }

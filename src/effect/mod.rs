@@ -82,8 +82,16 @@ pub trait Effect: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Adds force [N] and torque about the centre of mass [N·m] of a body, world axes; of an effect that acts
+    /// on every body by itself, this says all.
+    fn add_to_one(&self, _at: Moment, _body: &BodyMotion, _load: &mut Load) {}
+
     /// Adds force [N] and torque about the centre of mass [N·m] of each body, world axes.
-    fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]);
+    fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
+        for (body, load) in bodies.iter().zip(loads) {
+            self.add_to_one(at, body, load);
+        }
+    }
 
     /// Potential energy U of the bodies [J].
     fn potential_energy(&self, _at: Moment, _bodies: &[BodyMotion]) -> f64 {
@@ -106,11 +114,14 @@ pub trait Effect: Debug + Send + Sync {
     }
 }
 
-/// Power of the load that `add` puts on one body [W].
-pub(crate) fn power_of(body: &BodyMotion, add: impl FnOnce(&mut Load)) -> f64 {
-    let mut load = Load::zero();
-    add(&mut load);
-    load.power(body)
+/// Power of the loads that an effect puts on bodies one by one [W].
+fn power_of(effect: &impl Effect, at: Moment, bodies: &[BodyMotion]) -> f64 {
+    let power = |body: &BodyMotion| {
+        let mut load = Load::zero();
+        effect.add_to_one(at, body, &mut load);
+        load.power(body)
+    };
+    bodies.iter().map(power).sum()
 }
 
 /// Declares the effects: one line adds a variant, its name in files and its conversion.

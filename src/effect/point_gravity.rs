@@ -81,18 +81,16 @@ impl Effect for PointGravity {
         false
     }
 
-    fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
-        for (body, load) in bodies.iter().zip(loads) {
-            let r = body.position - Vector3::from(self.center);
-            let rho2 = r.norm_squared();
-            let k = self.mu / (rho2 * rho2.sqrt());
-            load.force -= k * body.mass * r;
-            if self.gradient_torque {
-                let (j, jr, s) = second_moment(body, &r);
-                let k5 = k / rho2;
-                load.force += 0.5 * k5 * ((15.0 * s / rho2 - 3.0 * j.trace()) * r - 6.0 * jr);
-                load.torque += 3.0 * k5 * r.cross(&jr);
-            }
+    fn add_to_one(&self, _at: Moment, body: &BodyMotion, load: &mut Load) {
+        let r = body.position - Vector3::from(self.center);
+        let rho2 = r.norm_squared();
+        let k = self.mu / (rho2 * rho2.sqrt());
+        load.force -= k * body.mass * r;
+        if self.gradient_torque {
+            let (j, jr, s) = second_moment(body, &r);
+            let k5 = k / rho2;
+            load.force += 0.5 * k5 * ((15.0 * s / rho2 - 3.0 * j.trace()) * r - 6.0 * jr);
+            load.torque += 3.0 * k5 * r.cross(&jr);
         }
     }
 

@@ -39,15 +39,6 @@ impl Thruster {
         self.schedule = Some(schedule.into());
         self
     }
-
-    fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {
-        let factor = Schedule::factor_or_one(self.schedule.as_ref(), at.since);
-        if factor != 0.0 {
-            let force = factor * Vector3::from(self.force_body);
-            load.force += body.rotation * force;
-            load.torque += body.rotation * Vector3::from(self.point_body).cross(&force);
-        }
-    }
 }
 
 impl Effect for Thruster {
@@ -73,13 +64,16 @@ impl Effect for Thruster {
         false
     }
 
-    fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
-        for (body, load) in bodies.iter().zip(loads) {
-            self.add_to_one(at, body, load);
+    fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {
+        let factor = Schedule::factor_or_one(self.schedule.as_ref(), at.since);
+        if factor != 0.0 {
+            let force = factor * Vector3::from(self.force_body);
+            load.force += body.rotation * force;
+            load.torque += body.rotation * Vector3::from(self.point_body).cross(&force);
         }
     }
 
     fn work_rate(&self, at: Moment, bodies: &[BodyMotion]) -> f64 {
-        bodies.iter().map(|body| power_of(body, |load| self.add_to_one(at, body, load))).sum()
+        power_of(self, at, bodies)
     }
 }

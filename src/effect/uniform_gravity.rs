@@ -58,11 +58,8 @@ impl Effect for UniformGravity {
         false
     }
 
-    fn add_to(&self, _at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
-        let g = Vector3::from(self.acceleration);
-        for (body, load) in bodies.iter().zip(loads) {
-            load.force += body.mass * g;
-        }
+    fn add_to_one(&self, _at: Moment, body: &BodyMotion, load: &mut Load) {
+        load.force += body.mass * Vector3::from(self.acceleration);
     }
 
     fn potential_energy(&self, _at: Moment, bodies: &[BodyMotion]) -> f64 {

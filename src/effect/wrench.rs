@@ -109,23 +109,6 @@ impl Wrench {
         self.phase = phase;
         self
     }
-
-    fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {
-        let oscillation = self.angular_frequency.map_or(1.0, |w| libm::sin(w * at.time + self.phase));
-        let factor = oscillation * Schedule::factor_or_one(self.schedule.as_ref(), at.since);
-        if factor == 0.0 {
-            return;
-        }
-        let (mut force, mut torque) = (factor * Vector3::from(self.force), factor * Vector3::from(self.torque));
-        let mut point = self.point.map(Vector3::from);
-        if self.frame == Frame::Body {
-            force = body.rotation * force;
-            torque = body.rotation * torque;
-            point = point.map(|p| body.point(&p));
-        }
-        load.add_force_at(&force, &point.unwrap_or(body.position), body);
-        load.torque += torque;
-    }
 }
 
 impl Effect for Wrench {
@@ -163,13 +146,24 @@ impl Effect for Wrench {
         false
     }
 
-    fn add_to(&self, at: Moment, bodies: &[BodyMotion], loads: &mut [Load]) {
-        for (body, load) in bodies.iter().zip(loads) {
-            self.add_to_one(at, body, load);
+    fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {
+        let oscillation = self.angular_frequency.map_or(1.0, |w| libm::sin(w * at.time + self.phase));
+        let factor = oscillation * Schedule::factor_or_one(self.schedule.as_ref(), at.since);
+        if factor == 0.0 {
+            return;
         }
+        let (mut force, mut torque) = (factor * Vector3::from(self.force), factor * Vector3::from(self.torque));
+        let mut point = self.point.map(Vector3::from);
+        if self.frame == Frame::Body {
+            force = body.rotation * force;
+            torque = body.rotation * torque;
+            point = point.map(|p| body.point(&p));
+        }
+        load.add_force_at(&force, &point.unwrap_or(body.position), body);
+        load.torque += torque;
     }
 
     fn work_rate(&self, at: Moment, bodies: &[BodyMotion]) -> f64 {
-        bodies.iter().map(|body| power_of(body, |load| self.add_to_one(at, body, load))).sum()
+        power_of(self, at, bodies)
     }
 }

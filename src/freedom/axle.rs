@@ -79,16 +79,6 @@ impl Axle {
         dy[1] = 0.0;
     }
 
-    #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn project(&self, _y: &mut [f64], _rest: &mut [f64]) -> f64 {
-        0.0
-    }
-
-    #[expect(clippy::unused_self, reason = "every chart answers this")]
-    pub(super) fn orientation_error(&self, _y: &[f64]) -> f64 {
-        0.0
-    }
-
     #[inline]
     pub(super) fn error_size(&self, y0: &[f64], y1: &[f64], e: &[f64], scales: &Scales) -> f64 {
         let least = 1.0 / (self.inv_moment * scales.time);

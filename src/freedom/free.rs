@@ -19,7 +19,7 @@ impl Free {
     }
 
     /// Its rotation.
-    pub(super) fn spin(&self) -> &Spin {
+    pub(crate) fn spin(&self) -> &Spin {
         &self.spin
     }
 
@@ -60,15 +60,6 @@ impl Free {
         put(dy, &(self.inv_mass * vector(&y[3..])));
         dy[3..6].fill(0.0);
         self.spin.rate_unloaded(&y[6..], &mut dy[6..]);
-    }
-
-    #[inline(always)]
-    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
-        self.spin.project(&mut y[6..], &mut rest[6..])
-    }
-
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        self.spin.orientation_error(&y[6..])
     }
 
     #[inline]

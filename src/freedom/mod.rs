@@ -201,6 +201,7 @@ impl Chart {
     }
 
     /// Where a chart that begins at `at` keeps orientation and angular momentum, if it does.
+    #[inline(always)]
     pub(crate) fn spin_part(&self, at: usize) -> Option<(std::ops::Range<usize>, &Spin)> {
         match self {
             Self::Free(c) => Some((at + 6..at + self.dimension(), c.spin())),
@@ -209,16 +210,23 @@ impl Chart {
         }
     }
 
-    /// Puts the orientation back on its sphere (or R on the rotations), lecture §4, with the rest that
-    /// rounding left of it, and returns how far it had strayed: `||q| − 1|` or `‖RᵀR − I‖` [-].
+    /// Amends a change `dy` of the numbers, of which rounding left `rest`, so that the orientation ends on
+    /// its sphere (or R on the rotations), lecture §4; returns how far it had strayed: `||q| − 1|` or
+    /// `‖RᵀR − I‖` [-].
     #[inline(always)]
-    pub fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
-        dispatch!(self, c => c.project(y, rest), 0.0)
+    pub fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
+        match self.spin_part(0) {
+            Some((part, spin)) => spin.project(&y[part.clone()], &rest[part.clone()], &mut dy[part]),
+            None => 0.0,
+        }
     }
 
     /// How far the orientation is off its sphere, as it stands [-].
     pub fn orientation_error(&self, y: &[f64]) -> f64 {
-        dispatch!(self, c => c.orientation_error(y), 0.0)
+        match self.spin_part(0) {
+            Some((part, spin)) => spin.orientation_error(&y[part]),
+            None => 0.0,
+        }
     }
 
     /// Size of an error `e` of a step from `y0` to `y1` [-]: of the position over a length, of

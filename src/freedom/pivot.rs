@@ -44,7 +44,7 @@ impl Pivot {
     }
 
     /// Its rotation.
-    pub(super) fn spin(&self) -> &Spin {
+    pub(crate) fn spin(&self) -> &Spin {
         &self.spin
     }
 
@@ -58,7 +58,7 @@ impl Pivot {
         self.spin.encode(&state.orientation, &momentum, y);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn decode(&self, y: &[f64], motion: &mut BodyMotion) {
         (motion.orientation, motion.rotation, motion.angular_velocity) = self.spin.decode(y);
         let r = motion.rotation * self.arm_body;
@@ -66,24 +66,15 @@ impl Pivot {
         motion.velocity = motion.angular_velocity.cross(&r);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate(&self, y: &[f64], motion: &BodyMotion, load: &Load, dy: &mut [f64]) {
         let torque = load.torque + (motion.rotation * self.arm_body).cross(&load.force);
         self.spin.rate(y, &motion.rotation, &motion.angular_velocity, &torque, dy);
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         self.spin.rate_unloaded(y, dy);
-    }
-
-    #[inline]
-    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
-        self.spin.project(y, rest)
-    }
-
-    pub(super) fn orientation_error(&self, y: &[f64]) -> f64 {
-        self.spin.orientation_error(y)
     }
 
     #[inline]

@@ -91,6 +91,12 @@ impl Spin {
         Self { form, inv_inertia, inv_moments: principal.moments.map(|moment| 1.0 / moment), axes }
     }
 
+    /// How orientation and angular momentum are written.
+    #[inline(always)]
+    pub(crate) fn form(&self) -> Form {
+        self.form
+    }
+
     /// Numbers of the orientation.
     #[inline]
     pub(super) fn orientation_dimension(&self) -> usize {
@@ -126,22 +132,23 @@ impl Spin {
     pub(super) fn decode(&self, y: &[f64]) -> (Quaternion, Matrix3, Vector3) {
         match self.form {
             Form::WorldQuaternion => {
-                let q = quaternion_at(y);
-                let r = quaternion::to_matrix(&q);
-                (quaternion::normalized(&q), r, self.angular_velocity(&r, &vector(&y[4..])))
+                let q = quaternion::normalized(&quaternion_at(y));
+                let r = quaternion::unit_to_matrix(&q);
+                (q, r, self.angular_velocity(&r, &vector(&y[4..])))
             }
             Form::WorldMatrix => {
                 let r = rotation::polar_factor(&matrix_at(y));
                 (quaternion::from_matrix(&r), r, self.angular_velocity(&r, &vector(&y[9..])))
             }
             Form::Body => {
-                let q = quaternion_at(y);
-                let r = quaternion::to_matrix(&q);
-                let w = r * self.inv_moments.component_mul(&vector(&y[4..]));
-                match &self.axes {
-                    None => (quaternion::normalized(&q), r, w),
-                    Some((axes, matrix)) => (quaternion::normalized(&q) * axes.conjugate(), r * matrix.transpose(), w),
-                }
+                let principal = quaternion::normalized(&quaternion_at(y));
+                let w = self.inv_moments.component_mul(&vector(&y[4..]));
+                let (q, w) = match &self.axes {
+                    None => (principal, w),
+                    Some((axes, matrix)) => (principal * axes.conjugate(), matrix * w),
+                };
+                let r = quaternion::unit_to_matrix(&q);
+                (q, r, r * w)
             }
         }
     }
@@ -152,9 +159,13 @@ impl Spin {
     }
 
     /// `ω = R I⁻¹ Rᵀ L`, lecture (20).
-    #[inline]
+    #[inline(always)]
     fn angular_velocity(&self, r: &Matrix3, momentum: &Vector3) -> Vector3 {
-        r * (self.inv_inertia * r.tr_mul(momentum))
+        let momentum_body = r.tr_mul(momentum);
+        match self.axes {
+            None => r * self.inv_moments.component_mul(&momentum_body),
+            Some(_) => r * (self.inv_inertia * momentum_body),
+        }
     }
 
     /// `(dq/dt or dR/dt, dL/dt)` under a torque about the point, world axes; `r` and `w` as decoded.
@@ -180,11 +191,20 @@ impl Spin {
     /// The same without a torque.
     #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
-        if self.form == Form::Body {
-            self.rate_body(y, &Vector3::zeros(), dy);
-        } else {
-            let (_, r, w) = self.decode(y);
-            self.rate(y, &r, &w, &Vector3::zeros(), dy);
+        match self.form {
+            Form::Body => self.rate_body(y, &Vector3::zeros(), dy),
+            Form::WorldMatrix => {
+                let (_, r, w) = self.decode(y);
+                self.rate(y, &r, &w, &Vector3::zeros(), dy);
+            }
+            Form::WorldQuaternion => {
+                // ω = R I⁻¹ Rᵀ L with |q|² R in the place of R: the division waits for nothing
+                let q = quaternion_at(y);
+                let (r, n) = quaternion::to_scaled_matrix(&q);
+                let w = self.angular_velocity(&r, &vector(&y[4..])) * (1.0 / (n * n));
+                put_quaternion(dy, &quaternion::rate_world(&w, &q));
+                put(&mut dy[4..], &Vector3::zeros());
+            }
         }
     }
 
@@ -262,32 +282,32 @@ impl Spin {
         put(a, &sum);
     }
 
-    /// One division by the length, or one polar factor; returns how far it had strayed.
+    /// Amends the change `dy` so that it ends on the sphere: one division by the length, or one polar factor;
+    /// returns how far it would have strayed.
     ///
     /// ```text
-    /// q ← q + c q,   c = 1/|q| − 1 = −e/2 + 3e²/8 − 5e³/16 + 35e⁴/128 − …,   e = |q|² − 1
+    /// q = q₀ + dq,   dq ← dq + c q,   c = 1/|q| − 1 = −e/2 + 3e²/8 − 5e³/16 + 35e⁴/128 − …,   e = |q|² − 1
     /// ```
     ///
-    /// Adding the small correction keeps the digits that the rest holds; a division would round them off.
+    /// The small correction joins the change before it is added, so that no digit of it is rounded off.
     #[inline(always)]
-    pub(super) fn project(&self, y: &mut [f64], rest: &mut [f64]) -> f64 {
+    pub(super) fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
         if self.form == Form::WorldMatrix {
-            let r = matrix_at(y);
-            put_matrix(y, &rotation::polar_factor(&r));
-            rest[..9].fill(0.0);
+            let r = matrix_at(y) + (matrix_at(dy) + matrix_at(rest));
+            put_matrix(dy, &((rotation::polar_factor(&r) - matrix_at(y)) - matrix_at(rest)));
             return rotation::orthogonality_error(&r);
         }
-        let q = quaternion_at(y);
-        let e = q.norm_squared() - 1.0;
+        let q: [f64; 4] = std::array::from_fn(|i| y[i] + (dy[i] + rest[i]));
+        let e = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
         let (c, strayed) = if e.abs() < SMALL_STRAY {
-            let c = e * (-0.5 + e * (0.375 + e * (-0.3125 + e * 0.2734375)));
+            let c = e * ((-0.5 + e * 0.375) + e * e * (-0.3125 + e * 0.2734375));
             (c, e.abs() * (0.5 - 0.125 * e))
         } else {
             let length = (1.0 + e).sqrt();
             ((1.0 - length) / length, (length - 1.0).abs())
         };
-        for (y, rest) in y[..4].iter_mut().zip(&mut rest[..4]) {
-            (*y, *rest) = two_sum(*y, c * *y + *rest);
+        for (dy, q) in dy[..4].iter_mut().zip(q) {
+            *dy += c * q;
         }
         strayed
     }

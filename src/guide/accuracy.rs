@@ -11,15 +11,26 @@
 //!
 //! # Methods
 //!
-//! | method | order | evaluations a step | angular momentum in |
-//! |---|---|---|---|
-//! | [`Euler`](crate::integrator::Method::Euler) | 1 | 1 | world axes |
-//! | [`SemiImplicitEuler`](crate::integrator::Method::SemiImplicitEuler) | 1 | 1 | world axes |
-//! | [`Heun`](crate::integrator::Method::Heun) | 2 | 2 | world axes |
-//! | [`Rk4`](crate::integrator::Method::Rk4) | 4 | 4 | body axes |
+//! | method | order | evaluations a step | angular momentum in | made for |
+//! |---|---|---|---|---|
+//! | [`Euler`](crate::integrator::Method::Euler) | 1 | 1 | world axes | the lecture's first step, and its warning |
+//! | [`SemiImplicitEuler`](crate::integrator::Method::SemiImplicitEuler) | 1 | 1 | world axes | the step of the lecture's hovercraft |
+//! | [`Heun`](crate::integrator::Method::Heun) | 2 | 2 | world axes | the lecture's second |
+//! | [`Rk4`](crate::integrator::Method::Rk4) | 4 | 4 | body axes | short runs with a given step |
+//! | [`Tsit5`](crate::integrator::Method::Tsit5) | 5 | 6 | body axes | steps that follow an error, 1e-3 to 1e-7 |
+//! | [`Dop853`](crate::integrator::Method::Dop853) | 8 | 12 | body axes | the same, below; what a plan takes where there is no closed form and nothing is stiff |
+//! | [`Split2`](crate::integrator::Method::Split2) | 2 | 2 | body axes | long runs: keeps `L`'s length of a free body, and the energy within bounds |
+//! | [`Split4`](crate::integrator::Method::Split4) | 4 | 6 | body axes | the same |
+//! | [`Split6`](crate::integrator::Method::Split6) | 6 | 10 | body axes | the same, loads without velocities |
+//! | [`Split8`](crate::integrator::Method::Split8) | 8 | 18 | body axes | the same, loads without velocities |
+//! | [`Axes2`](crate::integrator::Method::Axes2) | 2 | 2 | body axes | the simplest splitting, rotations about three axes |
+//! | [`Cf4`](crate::integrator::Method::Cf4) | 4 | 4 | world axes | stays on the rotations without projection |
+//! | [`Buss2`](crate::integrator::Method::Buss2) | 2 | 2 | world axes | what games use |
+//! | [`Radau5`](crate::integrator::Method::Radau5) | 5 | 3 an iteration | body axes | stiff loads: strong drag does not dictate the step; what a plan takes where it would |
+//! | [`Exact`](crate::integrator::Method::Exact) | – | 0 | – | free bodies, uniform gravity, linear drag: what a plan takes where it can |
 //!
 //! Order p: half the step, 2ᵖ times less error. An evaluation is one of `Y′` with all loads; the slope at
-//! the end of a step serves the next. A plan that may choose takes `Rk4`.
+//! the end of a step serves the next.
 //!
 //! What that means for a block that tumbles freely for one second, 6, 5 and 4 rad/s about its three axes.
 //! The error is that of the end state, in radians:
@@ -146,10 +157,10 @@
 //!
 //! # Between the steps
 //!
-//! The motion within a step is one polynomial, the cubic through both ends and their slopes
-//! ([`Segment`](crate::integrator::Segment)), with orientations normalised where they are read. Samples, energies
-//! and contacts all read that polynomial, so they agree with each other. It is off by h⁴, no more than the
-//! ends of the best method here.
+//! The motion within a step is one polynomial ([`Segment`](crate::integrator::Segment)), with orientations
+//! normalised where they are read: the cubic through both ends and their slopes (off by h⁴), in `Tsit5` and
+//! `Dop853` their own of order 4 and 7, in the closed form the motion itself. Samples, energies and contacts all
+//! read that one, so they agree with each other. It is made only of steps that someone looks into.
 //!
 //! # What costs order
 //!
@@ -177,17 +188,17 @@
 //! the largest body (the reach of its shape from its centre of mass) and the longest path (distance of a
 //! sample from the start), unless the options name one; the report echoes it.
 //!
-//! It is estimated by a second run with a longer step (Richardson): with r the ratio of the steps, p the
-//! order,
+//! It is estimated by comparing runs (Richardson): with r the ratio of the steps, p the order,
 //!
 //! ```text
-//! error of the finer run ≈ |fine − coarse| / (rᵖ − 1)
+//! error of the finer run ≈ |fine − coarse| / (rᵖ − 1) + rounding
 //! ```
 //!
-//! That holds where both steps are short enough for the error to fall as its order says. Where they
-//! are not, the two runs differ much, and the estimate says so, but may be off either way. A run with
-//! method and step takes its second run with twice the step; [`estimate`](crate::scene::RunOptions::estimate)
-//! switches it off.
+//! That holds where both steps are short enough for the error to fall as its order says. A run with
+//! method and step takes its second run with twice the step and believes the order;
+//! [`estimate`](crate::scene::RunOptions::estimate) switches it off. A run to a tolerance looks at three runs,
+//! sees how the differences fall, and trusts no more than that. In closed form nothing but rounding is left:
+//! 4 ε for every radian turned.
 //!
 //! A second measure costs no run: the energy audit of
 //! [`Trajectory::energy`](crate::trajectory::Trajectory::energy). Kinetic + potential + dissipated − work should stay;
@@ -196,10 +207,12 @@
 //!
 //! # A tolerance
 //!
-//! A tolerance is kept by trial: a first run with a step in which the fastest body turns by 0.25 rad at
-//! most (and at least 32 steps to the span), a second with half of that, and from then on steps that
-//! the estimate and the order call for, until two runs agree to the tolerance. The finest run is the
-//! result. The [report](crate::report::Report) says
+//! Where the motion has a closed form, that is the result. Else a first run takes steps as long as their own
+//! error allows (methods with error control; the others begin with steps in which the fastest body turns by
+//! 0.25 rad at most), and two more runs cut each of its steps in two and in four. How the three differ gives the
+//! estimate, as above. Where it misses the tolerance, the steps that the estimate and the order call for are
+//! taken, until it keeps it. The finest run is the result. A load with a kink, such as quadratic drag where
+//! the body turns round, is met by a step that ends on it. The [report](crate::report::Report) says
 //!
 //! - `error_estimate`, of the samples up to the horizon;
 //! - `met`, whether the estimate keeps the tolerance over the whole span;
@@ -209,7 +222,7 @@
 //!
 //! A tolerance below what rounding leaves is refused before the first step: `64 ε` for the positions and for
 //! every radian that the fastest body would turn at its starting rate. The search gives up, with `met = false`, where the next run would need more
-//! than 2e7 steps, and after 24 runs.
+//! than 2e7 steps, and after 24 rounds of three.
 //!
 //! # Comparing
 //!

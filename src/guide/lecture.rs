@@ -15,7 +15,7 @@
 //! | [5. Quaternions](#5-quaternions) | (25)–(29) | [`math::quaternion`](crate::math::quaternion) |
 //! | [6. The hovercraft](#6-the-hovercraft) | (30)–(37) | [`Thruster`](crate::effect::Thruster), [`Drag`](crate::effect::Drag), [`Planar`](crate::freedom::Planar) |
 //! | [7. Collision](#7-collision) | | [`impact`](crate::impact), [`closest::vertex_plane`](crate::closest::vertex_plane) |
-//! | [8. Closest features](#8-closest-features-lincanny) | | – |
+//! | [8. Closest features](#8-closest-features-lincanny) | | [`closest`](crate::closest) |
 //! | [9. Contact](#9-contact-beyond) | | [`contact`](crate::contact) |
 //!
 //! # Conventions
@@ -401,8 +401,6 @@
 //!
 //! # 8. Closest features: Lin–Canny
 //!
-//! Theory, for the general pair; the code has the case of §7 only.
-//!
 //! The **features** of a polytope are its vertices, its edges and, in space, its faces. The **Voronoi
 //! region** `V(F)` of a feature is the set of outside points that are closer to `F` than to any other
 //! feature. In the plane, rays from each vertex at right angles to its two edges bound the regions: a
@@ -422,7 +420,17 @@
 //! that starts with the pair of the step before takes nearly constant time when bodies move slowly.
 //!
 //! Overlap, where the plain algorithm cycles, parallel and coplanar features, and points on the bounds
-//! of regions are where implementations fail.
+//! of regions are where implementations fail. Here a step is taken only if it lowers the distance, so
+//! no pair returns; overlap is measured by a polytope grown inside the difference of the bodies; and
+//! every answer is checked: an interval that contains the true signed distance comes with it.
+//!
+//! | | in code |
+//! |---|---|
+//! | features and regions of a polygon | [`ConvexPolygon::voronoi_regions`](crate::shape::convex_polygon::ConvexPolygon::voronoi_regions) |
+//! | the walk in the plane | [`closest_features_planar`](crate::closest::planar::closest_features_planar), with its [`path`](crate::closest::planar::PlanarClosest::path) |
+//! | features of a polyhedron | [`ConvexPolyhedron`](crate::shape::convex_polyhedron::ConvexPolyhedron) |
+//! | closest features in space, of any shapes | [`closest_features`](crate::closest::closest_features) |
+//! | the pair to start from | [`PairCache`](crate::closest::PairCache) |
 //!
 //! # 9. Contact (beyond)
 //!

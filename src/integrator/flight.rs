@@ -56,6 +56,18 @@ pub trait Flight: Debug + Send {
     /// The state is not finite any more, no step is short enough, or a user's function failed.
     fn advance(&mut self, limit: f64) -> Result<(), FlightError>;
 
+    /// Takes steps until the front is at `to` [s] or behind it, none of which passes `limit` [s]; for
+    /// those who do not look at the motion between.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance).
+    fn advance_past(&mut self, to: f64, limit: f64) -> Result<(), FlightError> {
+        while self.front() < to {
+            self.advance(limit)?;
+        }
+        Ok(())
+    }
+
     /// Makes the motion within the last step known.
     ///
     /// # Errors
@@ -121,6 +133,13 @@ impl<P: Problem> Integration<P> {
     }
 }
 
+impl<P: Problem> Integration<P> {
+    /// Why a step failed: what a user's function complained about, before what came of it.
+    fn failure(&mut self, error: FlightError) -> FlightError {
+        self.problem.take_failure().map_or(error, FlightError::UserEffect)
+    }
+}
+
 impl<P: Problem> Flight for Integration<P> {
     fn front(&self) -> f64 {
         self.front.time.value
@@ -130,14 +149,22 @@ impl<P: Problem> Flight for Integration<P> {
         let Self { problem, integrator, front, start, counts, .. } = self;
         *start = front.time;
         self.stale = true;
-        let taken = integrator.advance(problem, front, limit, counts);
-        if taken.is_ok() && front.y.is_finite() {
+        match integrator.advance(problem, front, limit, counts) {
+            Ok(()) if front.y.is_finite() => Ok(()),
+            Ok(()) => Err(self.failure(FlightError::NotFinite)),
+            Err(error) => Err(self.failure(error)),
+        }
+    }
+
+    fn advance_past(&mut self, to: f64, limit: f64) -> Result<(), FlightError> {
+        let Self { problem, integrator, front, start, counts, stale, .. } = self;
+        if front.time.value >= to {
             return Ok(());
         }
-        match problem.take_failure() {
-            Some(message) => Err(FlightError::UserEffect(message)),
-            None => Err(taken.err().unwrap_or(FlightError::NotFinite)),
-        }
+        *stale = true;
+        let taken = integrator.advance_past(problem, front, (to, limit), counts);
+        *start = integrator.last_start();
+        taken.map_err(|error| self.failure(error))
     }
 
     fn interpolate(&mut self) -> Result<(), FlightError> {

@@ -30,11 +30,15 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
         Self { guess: Y::zeros(n), k2: Y::zeros(n) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y) {
-        let Self { guess, k2 } = self;
+        let mut work = (self.guess.lend(), self.k2.lend());
+        let (guess, k2) = (&mut work.0, &mut work.1);
         guess.set_sum(y, h, k0);
         problem.rate(at.after(h), guess, k2);
         dy.set_increment(0.5 * h, [(1.0, k0), (1.0, k2)]);
+
+        self.guess.take_back(work.0);
+        self.k2.take_back(work.1);
     }
 }

@@ -26,6 +26,7 @@ pub(crate) mod exact;
 mod flight;
 pub mod free_rotation;
 mod heun;
+mod radau5;
 mod rk4;
 mod segment;
 mod semi_implicit_euler;
@@ -46,6 +47,14 @@ pub use segment::{Curve, Segment};
 pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     /// `n` zeros.
     fn zeros(n: usize) -> Self;
+
+    /// A vector of this length to work in, of any content: a `Vec` is taken from here, an array is new, so
+    /// that the compiler can hold it in registers.
+    #[must_use]
+    fn lend(&mut self) -> Self;
+
+    /// Takes back what was lent.
+    fn take_back(&mut self, lent: Self);
 
     /// `self += a · k`
     #[inline]
@@ -89,10 +98,10 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
         }
     }
 
-    /// Whether every number is finite.
+    /// Whether every number is finite: 0 times any other is not 0.
     #[inline(always)]
     fn is_finite(&self) -> bool {
-        self.as_ref().iter().fold(true, |all, x| all & x.is_finite())
+        self.as_ref().iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
     }
 
     /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
@@ -109,11 +118,27 @@ impl<const N: usize> StateVector for [f64; N] {
         debug_assert_eq!(n, N);
         [0.0; N]
     }
+
+    #[inline(always)]
+    fn lend(&mut self) -> Self {
+        [0.0; N]
+    }
+
+    #[inline(always)]
+    fn take_back(&mut self, _lent: Self) {}
 }
 
 impl StateVector for Vec<f64> {
     fn zeros(n: usize) -> Self {
         vec![0.0; n]
+    }
+
+    fn lend(&mut self) -> Self {
+        std::mem::take(self)
+    }
+
+    fn take_back(&mut self, lent: Self) {
+        *self = lent;
     }
 }
 
@@ -121,6 +146,12 @@ impl StateVector for Vec<f64> {
 pub trait Problem: Debug + Send {
     /// The numbers that are integrated.
     type Y: StateVector;
+
+    /// Whether methods that integrate the angular momentum in world axes are used on it.
+    const WORLD_AXES: bool = true;
+
+    /// The same of methods in body axes.
+    const BODY_AXES: bool = true;
 
     /// How many numbers they are.
     fn dimension(&self) -> usize;
@@ -154,9 +185,9 @@ pub trait Problem: Debug + Send {
     /// `a += c (a × b)` on the angular velocities in two generators.
     fn add_bracket(&self, c: f64, a: &mut Self::Y, b: &Self::Y);
 
-    /// Puts orientations back on their sphere (lecture §4), with the rest that rounding left of `y`;
-    /// returns how far the worst had strayed [-].
-    fn project(&mut self, y: &mut Self::Y, rest: &mut Self::Y) -> f64;
+    /// Amends a change `dy` of `y`, of which rounding left `rest`, so that it ends with orientations on
+    /// their sphere (lecture §4); returns how far the worst had strayed [-].
+    fn project(&mut self, y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64;
 
     /// How far the worst orientation is off its sphere, as it stands [-].
     fn orientation_error(&self, y: &Self::Y) -> f64;
@@ -252,6 +283,21 @@ pub trait Integrator<P: Problem>: Debug + Send {
         counts: &mut Counts,
     ) -> Result<(), FlightError>;
 
+    /// Takes steps until the front is at `span.0` or behind it, none of which passes `span.1`.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance), and a state that is not finite any more.
+    fn advance_past(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        span: (f64, f64),
+        counts: &mut Counts,
+    ) -> Result<(), FlightError>;
+
+    /// Where the last step began.
+    fn last_start(&self) -> Time;
+
     /// Writes the motion within the last step, which ended at `front`.
     fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts);
 
@@ -293,7 +339,7 @@ macro_rules! methods {
                 }
             }
 
-            /// Evaluations of f in one step.
+            /// Evaluations of f in one step; of the implicit method in one iteration.
             pub fn evaluations(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
@@ -323,7 +369,8 @@ macro_rules! methods {
                 }
             }
 
-            /// The method on a problem; none for the closed form.
+            /// The method on a problem; none for the closed form, and none for methods in axes that the
+            /// problem is not written in.
             pub fn integrator<P: Problem + 'static>(
                 self,
                 problem: &P,
@@ -332,10 +379,10 @@ macro_rules! methods {
             ) -> Option<Box<dyn Integrator<P>>> {
                 let n = problem.dimension();
                 match self {
-                    $(Self::$variant => {
+                    $(Self::$variant if $module::BODY_AXES && P::BODY_AXES || !$module::BODY_AXES && P::WORLD_AXES => {
                         Some(Box::new(stepper::Stepper::<P, $module::Kernel<P::Y>>::new(n, control, projection)))
                     })*
-                    Self::Exact => None,
+                    _ => None,
                 }
             }
         }
@@ -369,6 +416,8 @@ methods! {
     Cf4 => cf4,
     /// Buss's augmented method, order 2, as games use it.
     Buss2 => buss2,
+    /// Radau IIA, order 5, with error control: implicit, for stiff loads such as strong drag.
+    Radau5 => radau5,
 }
 
 impl Method {
@@ -425,6 +474,11 @@ trait Kernel<Y: StateVector>: Debug + Send {
 
     /// The change of `y` in a step of length `h`; `k0 = f(t, y)` is known.
     fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y);
+
+    /// Evaluations of f that the last step took, that of `k0` included where it is needed.
+    fn evaluations(&self) -> u32 {
+        Self::EVALUATIONS
+    }
 
     /// Estimate of the error of the step just taken, from `y0` to `y1`, as a size [-].
     fn error<P: Problem<Y = Y>>(&mut self, _problem: &mut P, _y0: &Y, _y1: &Y, _h: f64, _scales: &Scales) -> f64 {

@@ -34,9 +34,10 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
         Self { stage: Y::zeros(n), k2: Y::zeros(n), k3: Y::zeros(n), k4: Y::zeros(n) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y) {
-        let Self { stage, k2, k3, k4 } = self;
+        let mut work = (self.stage.lend(), self.k2.lend(), self.k3.lend(), self.k4.lend());
+        let (stage, k2, k3, k4) = (&mut work.0, &mut work.1, &mut work.2, &mut work.3);
         let middle = at.after(0.5 * h);
 
         stage.set_sum(y, 0.5 * h, k0);
@@ -46,5 +47,10 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
         stage.set_sum(y, h, k3);
         problem.rate(at.after(h), stage, k4);
         dy.set_increment(h / 6.0, [(1.0, k0), (2.0, k2), (2.0, k3), (1.0, k4)]);
+
+        self.stage.take_back(work.0);
+        self.k2.take_back(work.1);
+        self.k3.take_back(work.2);
+        self.k4.take_back(work.3);
     }
 }

@@ -30,10 +30,11 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
         Self { drift: Y::zeros(n), kicked: Y::zeros(n) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn step<P: Problem<Y = Y>>(&mut self, problem: &mut P, _at: Moment, y: &Y, k0: &Y, h: f64, dy: &mut Y) {
         // the kick: what the loads do to the momenta
-        let Self { drift, kicked } = self;
+        let mut work = (self.drift.lend(), self.kicked.lend());
+        let (drift, kicked) = (&mut work.0, &mut work.1);
         problem.drift(y, drift);
         dy.set_increment(h, [(1.0, k0), (-1.0, drift)]);
         kicked.set_sum(y, 1.0, dy);
@@ -41,5 +42,8 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
         // the drift: the new momenta move the position
         problem.drift(kicked, drift);
         dy.add_scaled(h, drift);
+
+        self.drift.take_back(work.0);
+        self.kicked.take_back(work.1);
     }
 }

@@ -27,6 +27,7 @@ pub(super) struct Stepper<P: Problem, K> {
     kernel: K,
     /// The last step: its start, its length, and the slopes at both ends.
     at: Moment,
+    began: Time,
     h: f64,
     start: P::Y,
     start_rest: P::Y,
@@ -35,6 +36,8 @@ pub(super) struct Stepper<P: Problem, K> {
     /// Whether the slope at the front is known, in `end_slope`.
     slope_known: bool,
     increment: P::Y,
+    /// How far the orientations had strayed before they were put back [-].
+    strayed: f64,
     /// Length that error control proposes for the next step [s]; 0 where it has none yet.
     proposal: f64,
     /// Error of the last accepted step, as a part of what is allowed [-].
@@ -60,6 +63,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             projection,
             kernel: K::new(n),
             at: Moment { time: 0.0, since: 0.0 },
+            began: Time::default(),
             h: 0.0,
             start: zeros(),
             start_rest: zeros(),
@@ -67,18 +71,22 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             end_slope: zeros(),
             slope_known: false,
             increment: zeros(),
+            strayed: 0.0,
             proposal: 0.0,
             last_error: LEAST_ERROR,
         }
     }
 
     /// Starts a step at the front: the slope there.
+    #[inline(always)]
     fn begin(&mut self, problem: &mut P, front: &Front<P::Y>, counts: &mut Counts) {
         self.at = front.moment();
         if self.slope_known {
             std::mem::swap(&mut self.slope, &mut self.end_slope);
         } else if K::NEEDS_SLOPE {
-            problem.rate(self.at, &front.y, &mut self.slope);
+            let mut slope = self.slope.lend();
+            problem.rate(self.at, &front.y, &mut slope);
+            self.slope = slope;
             counts.evaluations += 1;
         }
         self.slope_known = false;
@@ -86,22 +94,28 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
     }
 
     /// Moves the front's numbers by a step of length `h` from the start.
-    #[inline]
-    fn attempt(&mut self, problem: &mut P, front: &mut Front<P::Y>, h: f64, counts: &mut Counts) {
+    #[inline(always)]
+    fn attempt(&mut self, problem: &mut P, front: &mut Front<P::Y>, h: f64) {
         self.h = h;
-        self.kernel.step(problem, self.at, &self.start, &self.slope, h, &mut self.increment);
-        front.y.add_compensated(&self.increment, &mut front.rest);
-        counts.evaluations += u64::from(K::EVALUATIONS) - u64::from(K::NEEDS_SLOPE);
+        let mut increment = self.increment.lend();
+        self.kernel.step(problem, self.at, &front.y, &self.slope, h, &mut increment);
+        if self.projection {
+            self.strayed = problem.project(&front.y, &front.rest, &mut increment);
+        }
+        front.y.add_compensated(&increment, &mut front.rest);
+        self.increment.take_back(increment);
+    }
+
+    /// Counts the evaluations of the step just tried; that of the slope at its start has been counted.
+    #[inline(always)]
+    fn count(&self, counts: &mut Counts) {
+        counts.evaluations += u64::from(self.kernel.evaluations()) - u64::from(K::NEEDS_SLOPE);
     }
 
     /// Completes a step that ends at `time`.
     #[inline]
     fn accept(&mut self, problem: &mut P, front: &mut Front<P::Y>, time: Time, counts: &mut Counts) {
-        let strayed = if self.projection {
-            problem.project(&mut front.y, &mut front.rest)
-        } else {
-            problem.orientation_error(&front.y)
-        };
+        let strayed = if self.projection { self.strayed } else { problem.orientation_error(&front.y) };
         front.time = time;
         counts.steps += 1;
         counts.orientation_drift = counts.orientation_drift.max(strayed);
@@ -154,9 +168,15 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
                 return Err(FlightError::StepTooShort(h));
             }
 
-            self.attempt(problem, front, h, counts);
+            self.attempt(problem, front, h);
             let error = self.kernel.error(problem, &self.start, &front.y, h, &limits.scales);
+            self.count(counts);
             let size = if front.y.is_finite() { error / limits.local } else { f64::INFINITY };
+            if size == f64::INFINITY
+                && let Some(message) = problem.take_failure()
+            {
+                return Err(FlightError::UserEffect(message));
+            }
             if size <= 1.0 {
                 let size = size.max(LEAST_ERROR);
                 let factor = CAUTION
@@ -206,9 +226,31 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
         let last = left <= step * (1.0 + STEP_REMAINDER);
         let h = if last { left } else { step };
         let time = if last { Time::new(limit) } else { front.time + h };
-        self.attempt(problem, front, h, counts);
+        self.attempt(problem, front, h);
+        self.count(counts);
         self.accept(problem, front, time, counts);
         Ok(())
+    }
+
+    fn advance_past(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        (to, limit): (f64, f64),
+        counts: &mut Counts,
+    ) -> Result<(), FlightError> {
+        while front.time.value < to {
+            self.began = front.time;
+            self.advance(problem, front, limit, counts)?;
+            if !front.y.is_finite() {
+                return Err(FlightError::NotFinite);
+            }
+        }
+        Ok(())
+    }
+
+    fn last_start(&self) -> Time {
+        self.began
     }
 
     fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts) {

@@ -16,14 +16,14 @@
 //!
 //! The formulas are harmless, their rounding is not: a solid far from the origin, or a slanted thin
 //! plate, is the small difference of large terms. So differences from the reference are kept exactly and
-//! all sums have 32 digits ([`Double`]). Every number comes out within few units of its last digit
+//! all sums have 32 digits ([`DoubleDouble`]). Every number comes out within few units of its last digit
 //! of what these vertices exactly enclose, at any offset, for plates of 1e-12. Price: half a
 //! microsecond a triangle, once.
 
 use crate::error::Result;
 use crate::mass::principal::power_of_two_above;
 use crate::mass::{MassProperties, surface};
-use crate::math::double::Double;
+use crate::math::double_double::DoubleDouble;
 use crate::math::{Matrix3, Vector3};
 
 /// Mass properties of the solid within a closed surface, from vertices [m], faces (indices of their
@@ -41,7 +41,7 @@ pub fn mass_properties(
 
     // the integrals, times 6, 24 and 120
     let local = Local::of(vertices, faces);
-    let (mut volume, mut first, mut second) = (Double::ZERO, [Double::ZERO; 3], [Double::ZERO; 6]);
+    let (mut volume, mut first, mut second) = (DoubleDouble::ZERO, [DoubleDouble::ZERO; 3], [DoubleDouble::ZERO; 6]);
     for [a, b, c] in triangles(&local.points, faces) {
         let d = dot(a, &cross(b, c));
         let s = [0, 1, 2].map(|i| a[i] + b[i] + c[i]);
@@ -57,17 +57,17 @@ pub fn mass_properties(
     surface::check_volume(place, local.filled(volume))?;
 
     // centre of mass, and the second moments moved there
-    let center = first.map(|x| x.divided_by(Double::from(4.0) * volume));
+    let center = first.map(|x| x / (DoubleDouble::from(4.0) * volume));
     let mut central = [0.0; 6];
     for (moment, ((i, j), sum)) in central.iter_mut().zip(PAIRS.into_iter().zip(second)) {
-        *moment = (sum - Double::from(20.0) * volume * center[i] * center[j]).divided_by(Double::from(120.0)).hi;
+        *moment = ((sum - DoubleDouble::from(20.0) * volume * center[i] * center[j]) / DoubleDouble::from(120.0)).hi;
     }
 
     // back from local lengths to metres, and to the tensor's signs (21)
     let k = local.unit;
-    let (mass, scale) = (density * (volume.divided_by(Double::from(6.0)).hi * k * k * k), density * k * k * k * k * k);
+    let (mass, scale) = (density * ((volume / DoubleDouble::from(6.0)).hi * k * k * k), density * k * k * k * k * k);
     let [xx, yy, zz, xy, xz, yz] = central.map(|moment| scale * moment);
-    let middle = [0, 1, 2].map(|i| k * (Double::from(local.reference[i]) + center[i]).hi);
+    let middle = [0, 1, 2].map(|i| k * (DoubleDouble::from(local.reference[i]) + center[i]).hi);
     Ok(MassProperties {
         mass,
         center_of_mass: Vector3::from(middle),
@@ -82,11 +82,11 @@ const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 
 /// are inside out, 0 where the box has no volume.
 pub(super) fn filled_fraction(vertices: &[[f64; 3]], faces: &[Vec<usize>]) -> f64 {
     let local = Local::of(vertices, faces);
-    let volume: Double = triangles(&local.points, faces).map(|[a, b, c]| dot(a, &cross(b, c))).sum();
+    let volume: DoubleDouble = triangles(&local.points, faces).map(|[a, b, c]| dot(a, &cross(b, c))).sum();
     local.filled(volume)
 }
 
-type Point = [Double; 3];
+type Point = [DoubleDouble; 3];
 
 /// Vertices as exact differences from a reference point, in a unit that makes them at most 2.
 struct Local {
@@ -112,12 +112,12 @@ impl Local {
         }
         let reference = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
         let points =
-            vertices.iter().map(scaled).map(|v| [0, 1, 2].map(|i| Double::difference(v[i], reference[i]))).collect();
+            vertices.iter().map(scaled).map(|v| [0, 1, 2].map(|i| DoubleDouble::sum(v[i], -reference[i]))).collect();
         Self { unit, reference, extents: [0, 1, 2].map(|i| high[i] - low[i]), points }
     }
 
     /// Six times a volume as a fraction of the bounding box's volume; 0 where that is 0.
-    fn filled(&self, six_volumes: Double) -> f64 {
+    fn filled(&self, six_volumes: DoubleDouble) -> f64 {
         let box_volume: f64 = self.extents.iter().product();
         if box_volume > 0.0 { six_volumes.hi / (6.0 * box_volume) } else { 0.0 }
     }
@@ -134,6 +134,6 @@ fn cross(a: &Point, b: &Point) -> Point {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| a[i] * b[j] - a[j] * b[i])
 }
 
-fn dot(a: &Point, b: &Point) -> Double {
+fn dot(a: &Point, b: &Point) -> DoubleDouble {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -16,7 +16,7 @@
 //! hold: entries of a slanted rod are rounded to 1e-16 of the largest moment.
 
 use crate::mass::MassProperties;
-use crate::math::double::Double;
+use crate::math::double_double::DoubleDouble;
 use crate::math::{Matrix3, Vector3};
 
 /// Principal moments of inertia and the axes they belong to.
@@ -107,11 +107,11 @@ fn annihilate(a: &mut Matrix3, axes: &mut Matrix3, p: usize, q: usize) -> bool {
 fn rayleigh_quotient(tensor: &Matrix3, v: &Vector3) -> f64 {
     // powers of two keep the products in range
     let scale = power_of_two_above(tensor.amax());
-    let v = [0, 1, 2].map(|i| Double::from(v[i]));
-    let image = |i: usize| (0..3).map(|j| Double::from(tensor[(i, j)] / scale) * v[j]).sum::<Double>();
-    let numerator: Double = (0..3).map(|i| v[i] * image(i)).sum();
-    let denominator: Double = v.iter().map(|&x| x * x).sum();
-    numerator.divided_by(denominator).hi * scale
+    let v = [0, 1, 2].map(|i| DoubleDouble::from(v[i]));
+    let image = |i: usize| (0..3).map(|j| DoubleDouble::from(tensor[(i, j)] / scale) * v[j]).sum::<DoubleDouble>();
+    let numerator: DoubleDouble = (0..3).map(|i| v[i] * image(i)).sum();
+    let denominator: DoubleDouble = v.iter().map(|&x| x * x).sum();
+    (numerator / denominator).hi * scale
 }
 
 /// The power of two in `(x, 2x]` for a normal `x > 0` below 2¹⁰²³; 1 for others.
@@ -174,7 +174,7 @@ mod tests {
     fn the_small_moment_of_a_slanted_rod_is_right_to_its_own_digits() {
         // the tensor as stored, not the one that rounding took it from: I₁ = det I / (I₂ I₃)
         let exact_determinant = |i: &Matrix3| {
-            let e = |r: usize, c: usize| Double::from(i[(r, c)]);
+            let e = |r: usize, c: usize| DoubleDouble::from(i[(r, c)]);
             let minor = |r: usize, s: usize| e(r, 1) * e(s, 2) - e(r, 2) * e(s, 1);
             (e(0, 0) * minor(1, 2) - e(1, 0) * minor(0, 2) + e(2, 0) * minor(0, 1)).hi
         };

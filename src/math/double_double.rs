@@ -1,4 +1,4 @@
-//! Numbers of twice the digits, for the rare question that `f64` cannot decide.
+//! Numbers of twice the digits, for sums that cancel and the rare question that `f64` cannot decide.
 //!
 //! A [`DoubleDouble`] is the unevaluated sum `hi + lo` of two `f64` with `|lo| ≤ ½ ulp(hi)`: 106 bits,
 //! a relative rounding of about 2⁻¹⁰⁴ for each operation (Dekker 1971, Numer. Math. 18:224; Li et al.
@@ -7,7 +7,8 @@
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::iter::Sum;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use crate::math::sum::two_sum;
 
@@ -75,6 +76,9 @@ impl Real for DoubleDouble {
 }
 
 impl DoubleDouble {
+    /// Zero.
+    pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
+
     /// `a + b` where `|a| ≥ |b|`.
     #[inline]
     fn quick(a: f64, b: f64) -> Self {
@@ -170,6 +174,18 @@ impl Div for DoubleDouble {
     }
 }
 
+impl AddAssign for DoubleDouble {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sum for DoubleDouble {
+    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
+        terms.fold(Self::ZERO, Add::add)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -186,6 +202,16 @@ mod tests {
         let error = exact(got) - want.clone();
         let (error, allowed) = (error.clone() * error, want.clone() * want.clone());
         error <= allowed * RBig::try_from(bound * bound).unwrap()
+    }
+
+    #[test]
+    fn cancelled_digits_come_back() {
+        assert_eq!(DoubleDouble::sum(1.0, -1e-20), DoubleDouble { hi: 1.0, lo: -1e-20 });
+        // (1 + δ)(1 − δ) − 1 = −δ², and what the sum of many terms drops is kept
+        let (a, b) = (DoubleDouble { hi: 1.0, lo: 1e-17 }, DoubleDouble { hi: 1.0, lo: -1e-17 });
+        assert!((a * b - DoubleDouble::from(1.0)).hi.abs() < 1e-31);
+        let sum: DoubleDouble = [1.0, 1e-20, -1.0].map(DoubleDouble::from).into_iter().sum();
+        assert_eq!(sum, DoubleDouble::from(1e-20));
     }
 
     proptest! {

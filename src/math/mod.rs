@@ -5,14 +5,12 @@
 //! | [`rotation`] | (1)–(8) | elementary rotations, the matrix Ω(ω), the polar factor |
 //! | [`quaternion`] | (25)–(29) | product, rate, matrix and back, exponential map |
 //! | [`decay`] | – | functions of exponential decay |
-//! | [`double_double`] | – | numbers of twice the digits |
+//! | [`double_double`] | – | numbers of twice the digits, for sums that cancel |
 //! | [`elliptic`] | – | elliptic integrals and functions of Jacobi |
 //! | [`pose`] | §1 | where a body frame stands in the world |
 //! | [`sum`] | – | time and sums with their rounding error kept |
-//! | [`double`] | – | arithmetic of 32 digits, for sums that cancel |
 
 pub mod decay;
-pub mod double;
 pub mod double_double;
 pub mod elliptic;
 pub mod pose;

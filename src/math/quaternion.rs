@@ -19,7 +19,7 @@ pub fn to_scalar_first(q: &Quaternion) -> [f64; 4] {
 /// `q/|q|`, the rotation that a quaternion off the unit sphere stands for.
 #[inline]
 pub fn normalized(q: &Quaternion) -> Quaternion {
-    q / q.norm_squared().sqrt()
+    q * (1.0 / q.norm_squared().sqrt())
 }
 
 /// Rotation by `angle` [rad] about the unit vector `axis`: `[cos(θ/2), sin(θ/2) u]`, lecture (25).
@@ -82,7 +82,19 @@ pub fn rate_body(w: &Vector3, q: &Quaternion) -> Quaternion {
 #[inline]
 pub fn to_matrix(q: &Quaternion) -> Matrix3 {
     let (w, x, y, z) = (q.w, q.i, q.j, q.k);
-    let k = 2.0 / (w * w + x * x + y * y + z * z);
+    matrix_with(q, 2.0 / (w * w + x * x + y * y + z * z))
+}
+
+/// The same for `|q| = 1`.
+#[inline]
+pub fn unit_to_matrix(q: &Quaternion) -> Matrix3 {
+    matrix_with(q, 2.0)
+}
+
+/// The matrix of the lecture with `k` in the place of 2.
+#[inline(always)]
+fn matrix_with(q: &Quaternion, k: f64) -> Matrix3 {
+    let (w, x, y, z) = (q.w, q.i, q.j, q.k);
     let (kx, ky, kz) = (k * x, k * y, k * z);
     let (xx, yy, zz) = (kx * x, ky * y, kz * z);
     let (xy, xz, yz) = (kx * y, kx * z, ky * z);
@@ -98,6 +110,27 @@ pub fn to_matrix(q: &Quaternion) -> Matrix3 {
         yz + wx,
         1.0 - (xx + yy),
     )
+}
+
+/// `|q|² R` and `|q|²`, for a formula that divides later.
+#[inline(always)]
+pub fn to_scaled_matrix(q: &Quaternion) -> (Matrix3, f64) {
+    let (w, x, y, z) = (q.w, q.i, q.j, q.k);
+    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
+    let (xy, xz, yz, wx, wy, wz) = (x * y, x * z, y * z, w * x, w * y, w * z);
+    let (wpx, ypz, wmx, ymz) = (ww + xx, yy + zz, ww - xx, yy - zz);
+    let r = Matrix3::new(
+        wpx - ypz,
+        2.0 * (xy - wz),
+        2.0 * (xz + wy), //
+        2.0 * (xy + wz),
+        wmx + ymz,
+        2.0 * (yz - wx), //
+        2.0 * (xz - wy),
+        2.0 * (yz + wx),
+        wmx - ymz,
+    );
+    (r, wpx + ypz)
 }
 
 /// The unit quaternion of a rotation matrix, with `w ≥ 0` where w leads (Shepperd 1978,

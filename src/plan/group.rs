@@ -1,9 +1,125 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
 use super::Binding;
-use crate::freedom::{Chart, RotationSplit, Scales};
-use crate::integrator::{Problem, StateVector};
+use crate::freedom::{Chart, Form, RotationSplit, Scales};
+use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector};
 use crate::state::{BodyMotion, Load, Moment};
+use std::fmt::Debug;
+
+/// What is known of a group's coordinates where its step is compiled.
+///
+/// Most groups are one body. Their vectors have a fixed length then, and the coordinates are known too,
+/// so that nothing is left to ask or to loop over in the step.
+pub trait Kind: Debug + Send + 'static {
+    /// The numbers that are integrated.
+    type Y: StateVector;
+
+    /// The forms of orientation that such groups have: world axes, body axes.
+    const WORLD_AXES: bool = true;
+    /// See [`WORLD_AXES`](Self::WORLD_AXES).
+    const BODY_AXES: bool = true;
+
+    /// Whether it is known that nothing acts on the bodies.
+    const UNLOADED: bool = false;
+
+    /// The same charts, of which the compiler knows more afterwards.
+    fn narrow(charts: &[Chart]) -> &[Chart];
+
+    /// The rates where nothing acts.
+    #[inline(always)]
+    fn rate_unloaded(charts: &[Chart], y: &[f64], dy: &mut [f64]) {
+        let mut at = 0;
+        for chart in Self::narrow(charts) {
+            let n = chart.dimension();
+            chart.rate_unloaded(&y[at..at + n], &mut dy[at..at + n]);
+            at += n;
+        }
+    }
+}
+
+/// Any bodies.
+#[derive(Debug)]
+pub struct Any;
+
+impl Kind for Any {
+    type Y = Vec<f64>;
+
+    #[inline(always)]
+    fn narrow(charts: &[Chart]) -> &[Chart] {
+        charts
+    }
+}
+
+/// Declares the kinds of single bodies: how many numbers they have, whether world axes, body
+/// axes and the absence of loads are meant, and what their only chart is.
+macro_rules! single {
+    ($($(#[$doc:meta])* $kind:ident: [$n:literal, $world:literal, $body:literal, $unloaded:literal] $pattern:pat $(if $known:expr)?,)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Debug)]
+            pub(crate) struct $kind;
+
+            impl Kind for $kind {
+                type Y = [f64; $n];
+                const WORLD_AXES: bool = $world;
+                const BODY_AXES: bool = $body;
+                const UNLOADED: bool = $unloaded;
+
+                #[inline(always)]
+                fn narrow(charts: &[Chart]) -> &[Chart] {
+                    match charts {
+                        [$pattern] $(if $known)? => charts,
+                        _ => unreachable!("{} was given {charts:?}", stringify!($kind)),
+                    }
+                }
+            }
+        )*
+
+        /// The flight by a method of bodies that start at `t` [s] with the numbers `y`; each kind of group has
+        /// a step of its own.
+        pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+            match bodies.charts.as_slice() {
+                $([$pattern] if $($known &&)? (bodies.bindings.is_empty() || !$unloaded) => fly::<$kind>(bodies, method, course, t, y),)*
+                _ => fly::<Any>(bodies, method, course, t, y),
+            }
+        }
+    };
+}
+
+single! {
+    /// A free body on which nothing acts, with q and L in body axes.
+    UnloadedBodyAxes: [13, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
+    /// A free body on which nothing acts, with q and L in world axes.
+    UnloadedWorldAxes: [13, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    /// A free body with q and L in body axes.
+    FreeBodyAxes: [13, false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
+    /// A free body with q and L in world axes.
+    FreeWorldAxes: [13, true, false, false] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    /// A top with q and L in body axes.
+    PivotBodyAxes: [7, false, true, false] Chart::Pivot(c) if c.spin().form() == Form::Body,
+    /// A body in a plane.
+    InPlane: [6, true, true, false] Chart::Planar(_),
+}
+
+/// Bodies of a group: their coordinates, their motions at the start, and what acts on them.
+pub(super) struct Bodies {
+    pub(super) charts: Vec<Chart>,
+    pub(super) motions: Vec<BodyMotion>,
+    pub(super) bindings: Vec<Binding>,
+}
+
+/// How a flight is led: what decides the steps, and whether orientations are put back on their sphere.
+pub(super) struct Course {
+    pub(super) control: Control,
+    pub(super) projection: bool,
+}
+
+fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+    let problem = Group::<K>::new(bodies.charts, bodies.motions, bodies.bindings);
+    debug_assert_eq!(problem.dimension(), y.len());
+    let integrator = method.integrator(&problem, course.control, course.projection);
+    Box::new(Integration::new(problem, integrator.expect("a method in the axes of the charts"), t, y))
+}
 
 /// Bodies with their coordinates and what acts on them.
 ///
@@ -11,7 +127,7 @@ use crate::state::{BodyMotion, Load, Moment};
 /// y ──charts──▶ motions ──effects──▶ loads ──charts──▶ y′
 /// ```
 #[derive(Debug)]
-pub struct Group<Y> {
+pub struct Group<K> {
     charts: Vec<Chart>,
     bindings: Vec<Binding>,
     motions: Vec<BodyMotion>,
@@ -20,10 +136,10 @@ pub struct Group<Y> {
     shown: Vec<BodyMotion>,
     shown_loads: Vec<Load>,
     depends_on_velocity: bool,
-    numbers: std::marker::PhantomData<fn() -> Y>,
+    kind: std::marker::PhantomData<fn() -> K>,
 }
 
-impl<Y> Group<Y> {
+impl<K: Kind> Group<K> {
     /// Bodies with these coordinates; of `motions`, mass, inertia and what no coordinate moves stay.
     pub(crate) fn new(charts: Vec<Chart>, motions: Vec<BodyMotion>, bindings: Vec<Binding>) -> Self {
         let n = motions.len();
@@ -36,14 +152,14 @@ impl<Y> Group<Y> {
             loads: vec![Load::zero(); n],
             shown: Vec::with_capacity(n),
             shown_loads: Vec::with_capacity(n),
-            numbers: std::marker::PhantomData,
+            kind: std::marker::PhantomData,
         }
     }
 
     /// Reads the motion of every body from the numbers.
     fn decode_into(charts: &[Chart], y: &[f64], motions: &mut [BodyMotion]) {
         let mut at = 0;
-        for (chart, motion) in charts.iter().zip(motions) {
+        for (chart, motion) in K::narrow(charts).iter().zip(motions) {
             let n = chart.dimension();
             chart.decode(&y[at..at + n], motion);
             at += n;
@@ -55,6 +171,20 @@ impl<Y> Group<Y> {
         self.add_loads(at);
         let bodies = self.charts.iter().zip(&self.motions).zip(&self.loads);
         bodies.map(|((chart, motion), load)| chart.reaction(motion, load)).collect()
+    }
+
+    /// `dy = f(t, y)` where something acts; apart, so that the steps of free bodies stay short.
+    #[inline(never)]
+    fn rate_loaded(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
+        Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
+        self.add_loads(at);
+        let (y, dy) = (y.as_ref(), dy.as_mut());
+        let mut at = 0;
+        for ((chart, motion), load) in K::narrow(&self.charts).iter().zip(&self.motions).zip(&self.loads) {
+            let n = chart.dimension();
+            chart.rate(&y[at..at + n], motion, load, &mut dy[at..at + n]);
+            at += n;
+        }
     }
 
     /// Loads of all effects on the motions as they stand.
@@ -81,8 +211,10 @@ impl<Y> Group<Y> {
     }
 }
 
-impl<Y: StateVector> Problem for Group<Y> {
-    type Y = Y;
+impl<K: Kind> Problem for Group<K> {
+    type Y = K::Y;
+    const WORLD_AXES: bool = K::WORLD_AXES;
+    const BODY_AXES: bool = K::BODY_AXES;
 
     fn dimension(&self) -> usize {
         self.charts.iter().map(Chart::dimension).sum()
@@ -93,34 +225,17 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline(always)]
-    fn rate(&mut self, at: Moment, y: &Y, dy: &mut Y) {
-        if self.bindings.is_empty() {
-            return self.drift(y, dy);
-        }
-        Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
-        self.add_loads(at);
-        let (y, dy) = (y.as_ref(), dy.as_mut());
-        let mut at = 0;
-        for ((chart, motion), load) in self.charts.iter().zip(&self.motions).zip(&self.loads) {
-            let n = chart.dimension();
-            chart.rate(&y[at..at + n], motion, load, &mut dy[at..at + n]);
-            at += n;
-        }
+    fn rate(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
+        if K::UNLOADED || self.bindings.is_empty() { self.drift(y, dy) } else { self.rate_loaded(at, y, dy) }
     }
 
     #[inline(always)]
-    fn drift(&mut self, y: &Y, dy: &mut Y) {
-        let (y, dy) = (y.as_ref(), dy.as_mut());
-        let mut at = 0;
-        for chart in &self.charts {
-            let n = chart.dimension();
-            chart.rate_unloaded(&y[at..at + n], &mut dy[at..at + n]);
-            at += n;
-        }
+    fn drift(&mut self, y: &K::Y, dy: &mut K::Y) {
+        K::rate_unloaded(&self.charts, y.as_ref(), dy.as_mut());
     }
 
     fn is_loaded(&self) -> bool {
-        !self.bindings.is_empty()
+        !K::UNLOADED && !self.bindings.is_empty()
     }
 
     fn depends_on_velocity(&self) -> bool {
@@ -128,9 +243,9 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn flow(&mut self, y: &mut Y, rest: &mut Y, h: f64, split: RotationSplit) {
+    fn flow(&mut self, y: &mut K::Y, rest: &mut K::Y, h: f64, split: RotationSplit) {
         let (y, rest, mut at) = (y.as_mut(), rest.as_mut(), 0);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             let n = chart.dimension();
             chart.flow(&mut y[at..at + n], &mut rest[at..at + n], h, split);
             at += n;
@@ -138,9 +253,9 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn to_generator(&self, y: &Y, k: &mut Y) {
+    fn to_generator(&self, y: &K::Y, k: &mut K::Y) {
         let (y, k, mut at) = (y.as_ref(), k.as_mut(), 0);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             if let Some((part, spin)) = chart.spin_part(at) {
                 spin.to_generator(&y[part.clone()], &mut k[part]);
             }
@@ -149,9 +264,9 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn act(&self, y: &mut Y, h: f64, v: &Y) {
+    fn act(&self, y: &mut K::Y, h: f64, v: &K::Y) {
         let (y, v, mut at) = (y.as_mut(), v.as_ref(), 0);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             let end = at + chart.dimension();
             let part = chart.spin_part(at);
             let straight = part.as_ref().map_or(end, |(part, _)| part.start);
@@ -166,9 +281,9 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn add_bracket(&self, c: f64, a: &mut Y, b: &Y) {
+    fn add_bracket(&self, c: f64, a: &mut K::Y, b: &K::Y) {
         let (a, b, mut at) = (a.as_mut(), b.as_ref(), 0);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             if let Some((part, spin)) = chart.spin_part(at) {
                 spin.add_bracket(c, &mut a[part.clone()], &b[part]);
             }
@@ -177,21 +292,21 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline(always)]
-    fn project(&mut self, y: &mut Y, rest: &mut Y) -> f64 {
-        let (y, rest) = (y.as_mut(), rest.as_mut());
+    fn project(&mut self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
+        let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
         let (mut at, mut worst) = (0, 0.0_f64);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             let part = at..at + chart.dimension();
-            worst = worst.max(chart.project(&mut y[part.clone()], &mut rest[part.clone()]));
+            worst = worst.max(chart.project(&y[part.clone()], &rest[part.clone()], &mut dy[part.clone()]));
             at = part.end;
         }
         worst
     }
 
-    fn orientation_error(&self, y: &Y) -> f64 {
+    fn orientation_error(&self, y: &K::Y) -> f64 {
         let y = y.as_ref();
         let (mut at, mut worst) = (0, 0.0_f64);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             let part = at..at + chart.dimension();
             worst = worst.max(chart.orientation_error(&y[part.clone()]));
             at = part.end;
@@ -200,10 +315,10 @@ impl<Y: StateVector> Problem for Group<Y> {
     }
 
     #[inline]
-    fn error_size(&self, y0: &Y, y1: &Y, e: &Y, scales: &Scales) -> f64 {
+    fn error_size(&self, y0: &K::Y, y1: &K::Y, e: &K::Y, scales: &Scales) -> f64 {
         let (y0, y1, e) = (y0.as_ref(), y1.as_ref(), e.as_ref());
         let (mut at, mut worst) = (0, 0.0_f64);
-        for chart in &self.charts {
+        for chart in K::narrow(&self.charts) {
             let part = at..at + chart.dimension();
             worst = worst.max(chart.error_size(&y0[part.clone()], &y1[part.clone()], &e[part.clone()], scales));
             at = part.end;

@@ -12,9 +12,7 @@ use crate::contact::{Material, Response};
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom};
-use crate::integrator::{
-    ClosedFlight, ClosedMotion, Control, Flight, Integration, Limits, Method, Problem, StateVector,
-};
+use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method};
 use crate::mass::MassProperties;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
@@ -25,7 +23,7 @@ mod explain;
 mod group;
 mod method;
 
-pub use group::Group;
+pub use group::{Any, Group};
 
 /// A body of the plan.
 #[derive(Debug, Clone)]
@@ -271,35 +269,15 @@ impl Plan {
             other => other.clone(),
         };
 
-        // single bodies have vectors of fixed length, whose loops the compiler unrolls
-        Ok(match n {
-            13 => self.integration::<[f64; 13]>(group, charts, t, control, motions, &y),
-            7 => self.integration::<[f64; 7]>(group, charts, t, control, motions, &y),
-            6 => self.integration::<[f64; 6]>(group, charts, t, control, motions, &y),
-            _ => self.integration::<Vec<f64>>(group, charts, t, control, motions, &y),
-        })
-    }
-
-    fn integration<Y: StateVector + 'static>(
-        &self,
-        group: usize,
-        charts: Vec<Chart>,
-        t: f64,
-        control: Control,
-        motions: &[BodyMotion],
-        y: &[f64],
-    ) -> Box<dyn Flight> {
-        let starts = (self.groups[group].method == Method::Exact).then(|| self.starts(group, &charts, motions));
-        let problem = Group::<Y>::new(charts, motions.to_vec(), self.groups[group].bindings.clone());
-        debug_assert_eq!(problem.dimension(), y.len());
-        if let Some(integrator) =
-            self.groups[group].method.integrator(&problem, control.clone(), self.options.projection)
-        {
-            Box::new(Integration::new(problem, integrator, t, y))
-        } else {
-            let motion = ClosedMotion::new(Time::new(t), starts.unwrap_or_default());
-            Box::new(ClosedFlight::new(problem, motion, control))
+        let (spec, motions) = (&self.groups[group], motions.to_vec());
+        if spec.method == Method::Exact {
+            let motion = ClosedMotion::new(Time::new(t), self.starts(group, &charts, &motions));
+            let problem = Group::<Any>::new(charts, motions, spec.bindings.clone());
+            return Ok(Box::new(ClosedFlight::new(problem, motion, control)));
         }
+        let bodies = group::Bodies { charts, motions, bindings: spec.bindings.clone() };
+        let course = group::Course { control, projection: self.options.projection };
+        Ok(group::flight(bodies, spec.method, course, t, &y))
     }
 
     /// A step that follows every body's turning and the span, from which a tolerance is worked out [s].

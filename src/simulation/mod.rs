@@ -211,6 +211,7 @@ impl Simulation {
         }
         self.advance_meeting(to, &mut None, &mut |_| std::ops::ControlFlow::Continue(())).map_err(Box::new)?;
         for lane in self.lanes_alone() {
+            self.advance_unseen(lane, to).map_err(Box::new)?;
             while self.lanes[lane].flight.front() < to {
                 self.step_lane(lane, &mut None).map_err(Box::new)?;
             }
@@ -260,6 +261,19 @@ impl Simulation {
     /// The lanes whose bodies meet nobody.
     fn lanes_alone(&self) -> Vec<usize> {
         (0..self.lanes.len()).filter(|&lane| !self.plan.groups()[self.lanes[lane].group].meets).collect()
+    }
+
+    /// Takes the steps that nobody looks at at once: no samples, nothing to meet, and no switch on the way.
+    fn advance_unseen(&mut self, index: usize, to: f64) -> Result<(), SimulationError> {
+        let (plan, lane) = (&self.plan, &mut self.lanes[index]);
+        let spec = &plan.groups()[lane.group];
+        let front = lane.flight.front();
+        let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
+        if spec.meets || plan.tolerance().is_some() || switch <= to {
+            return Ok(());
+        }
+        let taken = lane.flight.advance_past(to, switch.min(self.end));
+        taken.map_err(|error| self.failure(index, front, error.into()))
     }
 
     /// One step of a lane that meets nobody: step, record.

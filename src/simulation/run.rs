@@ -44,8 +44,10 @@ impl Scene {
         options: &RunOptions,
         observer: Observer<'_>,
     ) -> Result<Trajectory, RunError> {
-        let began = thread_seconds();
-        let plan = self.compile(options)?;
+        let (began, span) = (thread_seconds(), span.into());
+        // the span takes part in the choice of a method; a bad one is refused by the run
+        let t_span = (span.start < span.end && (span.end - span.start).is_finite()).then_some([span.start, span.end]);
+        let plan = self.compile(&RunOptions { t_span, ..options.clone() })?;
         let compile = thread_seconds() - began;
         let mut result = plan.run_observed(span, observer);
         if let Ok(run) = &mut result {

@@ -21,7 +21,7 @@ fn a_board_and_a_cylinder() {
     let board = Cuboid::new([0.025, 0.195, 0.735]).into();
     let cylinder = Cylinder::new(0.18, 0.09).into();
     let (pose_a, pose_b) = (
-        Pose::new([0.8, -0.385, 0.735], [0.707107, 0.0, 0.0, 0.707107]),
+        Pose::new([0.8, -0.385, 0.735], [1.0, 0.0, 0.0, 1.0]),
         Pose::new([0.4, -0.4, 0.93], [0.991445, 0.0, 0.0, -0.130526]),
     );
     // turned by a right angle, the board reaches 0.195 m along x and 0.025 m along y

@@ -133,7 +133,7 @@ fn a_cube_that_lands_flat_never_turns() {
 fn an_oblique_ball_grips_or_slips_by_the_cone_of_the_total_impulse() {
     // a ball without spin, down with v_n, along with v_t. To grip, the floor must give m v_t/(1 + m R²/I)
     // = 2/7 m v_t; it can give μ (1+e) m v_n. Slip: v_t⁺ = v_t − μ (1+e) v_n, ω = 5/2 μ (1+e) v_n / R.
-    // Grip: v_t⁺ = 5/7 v_t, ω = 5/7 v_t / R. (Brach 1991, ch. 6.)
+    // Grip: v_t⁺ = 5/7 v_t, ω = 5/7 v_t / R. (Brach 1991.)
     let (m, radius, vn) = (0.6, 0.05, 2.0);
     let direction = vector(0.6, -0.8, 0.0);
     for law in Law::ALL {
@@ -156,7 +156,7 @@ fn an_oblique_ball_grips_or_slips_by_the_cone_of_the_total_impulse() {
 #[test]
 fn a_blow_runs_through_a_cradle_of_balls_and_of_cubes() {
     // equal masses, e = 1: only the last moves off, with the whole velocity (Newton's cradle); k balls in,
-    // k balls out (Smith et al. 2012, §1)
+    // k balls out (Smith et al. 2012)
     let (v, h) = (2.0, 0.1);
     for cubes in [false, true] {
         for friction in [0.0, 0.3] {

@@ -11,6 +11,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
 #![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
+#![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts, never negative")]
 
 mod families;
 mod oracle;

@@ -59,7 +59,8 @@ pub fn solve(w: &Dense, q: &[f64]) -> Solution {
 
 /// The largest `|min(p, u)|`.
 fn residual(w: &Dense, q: &[f64], p: &[f64]) -> f64 {
-    w.times_plus(p, q).iter().zip(p).fold(0.0, |m, (u, p)| m.max(u.min(*p).abs()))
+    let smaller = |(u, p): (&f64, &f64)| if u.is_nan() || p.is_nan() { f64::NAN } else { u.min(*p) };
+    largest(&w.times_plus(p, q).iter().zip(p).map(smaller).collect::<Vec<f64>>())
 }
 
 /// Lawson and Hanson's method on a positive definite matrix. Each pass of the outer loop lowers the

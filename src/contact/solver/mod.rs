@@ -94,6 +94,9 @@ impl Coulomb<'_> {
     /// (De Saxcé & Feng 1998): 0 exactly at a solution.
     pub fn residual(&self, p: &[f64]) -> f64 {
         let u = self.w.times_plus(p, self.q);
+        if !largest(&u).is_finite() || !largest(p).is_finite() {
+            return f64::INFINITY;
+        }
         let mut worst = 0.0f64;
         for i in 0..self.contacts() {
             let (p, u) = (triple(p, i), triple(&u, i));

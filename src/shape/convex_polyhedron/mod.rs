@@ -15,12 +15,17 @@
 //! Polygons, segments and points (rank 2, 1, 0) are convex polyhedra too: a polygon has two faces
 //! back to back, a segment one edge and no face.
 
-use std::collections::BTreeMap;
+mod directions;
+mod link;
+mod polygons;
+mod vector;
 
 use crate::error::{Error, Result};
-use crate::math::double_double::{DoubleDouble, Real};
 use crate::shape::hull;
 use crate::tolerance::{COORDINATE_MAX, COORDINATE_MIN, FACE_FLATNESS};
+use directions::{cells_per_side, cube_cell};
+use polygons::polygons;
+use vector::{add, area_vector, dot, norm, sub, unit};
 
 /// No such index.
 const NONE: u32 = u32::MAX;
@@ -326,105 +331,6 @@ impl ConvexPolyhedron {
         let k = self.leaving_to[range.clone()].iter().position(|&v| v as usize == to)?;
         Some((self.leaving[range.start + k] / 2) as usize)
     }
-
-    /// Rings, half-edges, faces and the walls of the Voronoi regions.
-    fn link(&mut self, triangles: &[[u32; 3]], loops: &[Vec<u32>]) {
-        let count = self.about_center.len();
-        let sides = |corners: &[u32]| {
-            let n = corners.len();
-            (0..n).map(|k| (corners[k], corners[(k + 1) % n])).collect::<Vec<_>>()
-        };
-
-        // rings: along the triangles of a solid, around a polygon, from end to end of a segment
-        let mut pairs: Vec<(u32, u32)> = match self.rank {
-            3 => triangles.iter().flat_map(|t| sides(t)).collect(),
-            2 => loops.iter().flat_map(|l| sides(l)).collect(),
-            1 => vec![(0, 1), (1, 0)],
-            _ => Vec::new(),
-        };
-        pairs.sort_unstable();
-        pairs.dedup();
-        (self.ring_start, self.ring) = grouped(count, &pairs);
-        self.ring_points = self.ring.iter().map(|&k| self.about_center[k as usize]).collect();
-
-        // half-edges, the twins next to each other
-        let mut half_edge_of: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        let unlinked = HalfEdge { origin: NONE, next: NONE, face: None, inward: [0.0; 3] };
-        let mut make = |half_edges: &mut Vec<HalfEdge>, from: u32, to: u32| {
-            if let Some(&h) = half_edge_of.get(&(from, to)) {
-                return h;
-            }
-            let h = u32::try_from(half_edges.len()).unwrap_or(NONE);
-            half_edges.extend([from, to].map(|origin| HalfEdge { origin, ..unlinked }));
-            half_edge_of.extend([((from, to), h), ((to, from), h + 1)]);
-            h
-        };
-        if self.rank == 1 {
-            let h = make(&mut self.half_edges, 0, 1) as usize;
-            (self.half_edges[h].next, self.half_edges[h + 1].next) = (1, 0);
-        }
-        for (f, corners) in (0..).zip(loops) {
-            let around: Vec<u32> = sides(corners).iter().map(|&(i, j)| make(&mut self.half_edges, i, j)).collect();
-            for (&h, &next) in around.iter().zip(around.iter().cycle().skip(1)) {
-                self.half_edges[h as usize].next = next;
-                self.half_edges[h as usize].face = Some(f);
-            }
-            self.faces.push(self.face(corners, around[0]));
-        }
-
-        // walls: along each edge, and inwards from each half-edge
-        for e in 0..self.half_edges.len() / 2 {
-            let [i, j] = self.edge_vertices(e);
-            let along = sub(&self.about_center[j], &self.about_center[i]);
-            let length = norm(&along);
-            self.edges.push(Edge { direction: along.map(|x| x / length), length });
-        }
-        for h in 0..self.half_edges.len() {
-            let u = self.edges[h / 2].direction;
-            let u = if h % 2 == 0 { u } else { u.map(|x| -x) };
-            if let Some(f) = self.half_edges[h].face {
-                self.half_edges[h].inward = unit(&cross(&self.faces[f as usize].normal, &u));
-            }
-        }
-
-        // what meets in each vertex
-        let mut meeting: Vec<(u32, u32)> = (0..).zip(loops).flat_map(|(f, l)| l.iter().map(move |&v| (v, f))).collect();
-        meeting.sort_unstable();
-        (self.faces_at_start, self.faces_at) = grouped(count, &meeting);
-        let mut leaving: Vec<(u32, u32)> = self.half_edges.iter().zip(0..).map(|(h, k)| (h.origin, k)).collect();
-        leaving.sort_unstable();
-        (self.leaving_start, self.leaving) = grouped(count, &leaving);
-        self.leaving_to = self.leaving.iter().map(|&h| self.half_edges[(h ^ 1) as usize].origin).collect();
-    }
-
-    /// The plane of a loop of vertices: its area vector (Newell), moved out to hold the whole body.
-    fn face(&self, corners: &[u32], half_edge: u32) -> Face {
-        let at = |k: usize| &self.about_center[corners[k] as usize];
-        let area = (2..corners.len()).fold([0.0; 3], |sum, k| add(&sum, &area_vector(at(0), at(k - 1), at(k))));
-        let normal = unit(&area);
-        let height = |v: &[f64; 3]| dot(&normal, v);
-        let offset = self.about_center.iter().map(height).fold(f64::MIN, f64::max);
-        let lowest = corners.iter().map(|&k| height(&self.about_center[k as usize])).fold(f64::MAX, f64::min);
-        Face {
-            normal,
-            offset,
-            fit_error: offset - lowest,
-            half_edge,
-            sides: u32::try_from(corners.len()).unwrap_or(NONE),
-        }
-    }
-
-    /// For large bodies, the farthest vertex for a grid of directions on a cube.
-    fn seed(&mut self) {
-        let cells = cells_per_side(self.about_center.len());
-        let mut at = 0;
-        let mut seeds = Vec::with_capacity(6 * cells * cells);
-        for cell in 0..6 * cells * cells {
-            at = self.climb(at, &cube_direction(cell, cells));
-            seeds.push(u32::try_from(at).unwrap_or(0));
-        }
-        self.seeds = seeds;
-    }
 }
 
 /// The middle of the points' bounding box, or the origin where that is as good as inside the box.
@@ -434,155 +340,6 @@ fn center_of(points: &[[f64; 3]]) -> [f64; 3] {
     let middle = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
     let half_diagonal = 0.5 * norm(&sub(&high, &low));
     if norm(&middle) <= 0.5 * half_diagonal { [0.0; 3] } else { middle }
-}
-
-/// Sorted pairs as a table: where each first member's entries start, and the second members.
-fn grouped(count: usize, pairs: &[(u32, u32)]) -> (Vec<u32>, Vec<u32>) {
-    let starts = (0..=count).map(|i| pairs.partition_point(|p| (p.0 as usize) < i));
-    (starts.map(|k| u32::try_from(k).unwrap_or(NONE)).collect(), pairs.iter().map(|p| p.1).collect())
-}
-
-/// Triangles merged into polygons where they lie on one plane to within `flatness` [m]: each region
-/// grows from its largest triangle. A region whose border is not one simple loop stays in triangles.
-fn polygons(vertices: &[[f64; 3]], triangles: &[[u32; 3]], flatness: f64) -> Vec<Vec<u32>> {
-    let at = |i: u32| &vertices[i as usize];
-    let areas: Vec<[f64; 3]> = triangles.iter().map(|t| area_vector(at(t[0]), at(t[1]), at(t[2]))).collect();
-    let owner: BTreeMap<(u32, u32), usize> =
-        triangles.iter().enumerate().flat_map(|(f, t)| (0..3).map(move |k| ((t[k], t[(k + 1) % 3]), f))).collect();
-    let mut largest_first: Vec<usize> = (0..triangles.len()).collect();
-    largest_first.sort_by(|&f, &g| norm(&areas[g]).total_cmp(&norm(&areas[f])).then(f.cmp(&g)));
-
-    let mut region = vec![usize::MAX; triangles.len()];
-    let mut loops = Vec::new();
-    for seed in largest_first {
-        if region[seed] != usize::MAX {
-            continue;
-        }
-
-        // the triangles around the seed that lie on its plane and face its way
-        let (normal, origin) = (unit(&areas[seed]), at(triangles[seed][0]));
-        let flat = |f: usize| triangles[f].iter().all(|&i| dot(&normal, &sub(at(i), origin)).abs() <= flatness);
-        let mut members = vec![seed];
-        region[seed] = seed;
-        let mut k = 0;
-        while k < members.len() {
-            let t = triangles[members[k]];
-            for side in 0..3 {
-                let f = owner[&(t[(side + 1) % 3], t[side])];
-                if region[f] == usize::MAX && dot(&normal, &areas[f]) > 0.0 && flat(f) {
-                    region[f] = seed;
-                    members.push(f);
-                }
-            }
-            k += 1;
-        }
-
-        // the border: half-edges whose twin belongs to another region
-        let sides = members.iter().flat_map(|&f| (0..3).map(move |k| (triangles[f][k], triangles[f][(k + 1) % 3])));
-        let border: Vec<(u32, u32)> = sides.filter(|&(i, j)| region[owner[&(j, i)]] != seed).collect();
-        let next: BTreeMap<u32, u32> = border.iter().copied().collect();
-        let walk: Vec<u32> = match border.first() {
-            Some(&(start, _)) => {
-                let around = std::iter::successors(Some(start), |i| next.get(i).copied().filter(|&j| j != start));
-                around.take(border.len()).collect()
-            }
-            None => Vec::new(),
-        };
-        if walk.len() == border.len() && next.len() == border.len() && walk.len() >= 3 {
-            loops.push(walk);
-        } else {
-            loops.extend(members.iter().map(|&f| triangles[f].to_vec()));
-        }
-    }
-    loops
-}
-
-/// Cells along each side of the cube of directions; up to this many vertices a climb is short anyway.
-fn cells_per_side(vertices: usize) -> usize {
-    match vertices {
-        0..24 => 0,
-        24..96 => 2,
-        96..384 => 4,
-        384..1536 => 8,
-        _ => 12,
-    }
-}
-
-/// The cell of the cube of directions that a direction points through.
-#[inline]
-fn cube_cell(d: &[f64; 3], cells: usize) -> usize {
-    let [x, y, z] = d.map(f64::abs);
-    let axis = if x >= y && x >= z {
-        0
-    } else if y >= z {
-        1
-    } else {
-        2
-    };
-    let scale = 0.5 * cells as f64 / d[axis].abs();
-    // a direction of length zero or NaN has no cell; the cast makes it the first
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates, then clamped")]
-    let cell = |v: f64| ((v * scale + 0.5 * cells as f64) as usize).min(cells - 1);
-    let side = 2 * axis + usize::from(d[axis] < 0.0);
-    (side * cells + cell(d[(axis + 1) % 3])) * cells + cell(d[(axis + 2) % 3])
-}
-
-/// The direction through the middle of a cell.
-fn cube_direction(cell: usize, cells: usize) -> [f64; 3] {
-    let (side, u, v) = (cell / (cells * cells), cell / cells % cells, cell % cells);
-    let middle = |k: usize| (2.0 * k as f64 + 1.0) / cells as f64 - 1.0;
-    let axis = side / 2;
-    let mut d = [0.0; 3];
-    d[axis] = if side % 2 == 0 { 1.0 } else { -1.0 };
-    d[(axis + 1) % 3] = middle(u);
-    d[(axis + 2) % 3] = middle(v);
-    d
-}
-
-#[inline]
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn sub(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn add(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn norm(a: &[f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
-/// Twice the area of a triangle along its normal. The corners are taken apart in double-double: of a
-/// sliver, whose sides are all but parallel, the product in `f64` would lose the normal.
-fn area_vector(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> [f64; 3] {
-    let (u, v) = (from_to(a, b), from_to(a, c));
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        (u[i] * v[j] - u[j] * v[i]).to_f64()
-    })
-}
-
-fn from_to(a: &[f64; 3], b: &[f64; 3]) -> [DoubleDouble; 3] {
-    std::array::from_fn(|k| DoubleDouble::sum(b[k], -a[k]))
-}
-
-/// The unit vector along `a`; of the zero vector the z axis.
-fn unit(a: &[f64; 3]) -> [f64; 3] {
-    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    if largest == 0.0 {
-        return [0.0, 0.0, 1.0];
-    }
-    let scaled = a.map(|x| x / largest); // areas of tiny triangles would underflow when squared
-    let length = norm(&scaled);
-    scaled.map(|x| x / length)
 }
 
 #[cfg(test)]
