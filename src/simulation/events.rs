@@ -24,7 +24,7 @@ use crate::tolerance::{IMPACT_GAP, TOUCH_GAP};
 use crate::trajectory::{Event, EventKind, Trajectory};
 
 /// How far a body moves in a window, in its own radii [-]. Longer: more pairs are looked at; shorter: more
-/// windows are opened. The gas of the benches is flat between 1 and 4.
+/// windows are opened. Results do not depend on it.
 const WINDOW: f64 = 2.0;
 /// Impacts of one body at one instant after which it is said to rest [-]. Two planes that answer each
 /// other with e < 1 are done to rounding after about 50.

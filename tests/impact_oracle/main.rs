@@ -23,7 +23,7 @@ use bryla::impact::{Finder, Impact, Outcome, time_of_impact};
 use families::{Case, FAMILIES, Family, Random};
 use oracle::Verdict;
 
-/// Looks of the oracle at one pair before it gives up; 1 in 1e5 pairs takes more.
+/// Looks of the oracle at one pair before it gives up; of the grazes 1 in 200 takes more, of others none.
 const PIECES: usize = 200_000;
 
 #[derive(Debug, Default)]
