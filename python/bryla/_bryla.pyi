@@ -41,7 +41,7 @@ _Response: TypeAlias = Literal["bounce", "stick"]
 _Frame: TypeAlias = Literal["world", "body"]
 _Record: TypeAlias = Literal["dense", "samples", "end"]
 _Orientation: TypeAlias = Literal["quaternion", "matrix"]
-_Finder: TypeAlias = Literal["bisection", "secant"]
+_Finder: TypeAlias = Literal["bisection", "secant", "guaranteed"]
 _Format: TypeAlias = Literal["toml", "json"]
 _Collidable: TypeAlias = _Shape | ConvexPolyhedron | Collider
 _Accuracy: TypeAlias = Literal["exact", "yes_no"] | float
@@ -1188,8 +1188,8 @@ class Scene:
             How methods in world axes write the orientation; "quaternion" by default.
         projection : bool, optional
             Whether orientations are put back on their sphere after each step (default).
-        finder : {"secant", "bisection"}, optional
-            How the time of contact is found; "secant" by default.
+        finder : {"guaranteed", "secant", "bisection"}, optional
+            How the time of contact is found; "guaranteed" by default.
         eps : float, optional
             Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
         progress : bool

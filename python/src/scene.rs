@@ -133,8 +133,8 @@ impl PyScene {
     ///     How methods in world axes write the orientation; "quaternion" by default.
     /// projection : bool, optional
     ///     Whether orientations are put back on their sphere after each step (default).
-    /// finder : {"secant", "bisection"}, optional
-    ///     How the time of contact is found; "secant" by default.
+    /// finder : {"guaranteed", "secant", "bisection"}, optional
+    ///     How the time of contact is found; "guaranteed" by default.
     /// eps : float, optional
     ///     Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
     /// progress : bool
