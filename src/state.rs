@@ -60,6 +60,13 @@ impl BodyMotion {
         }
     }
 
+    /// Whether position, rotation and velocities are finite.
+    pub fn is_finite(&self) -> bool {
+        let Self { position, rotation, velocity, angular_velocity, .. } = self;
+        [position, velocity, angular_velocity].iter().all(|v| v.iter().all(|x| x.is_finite()))
+            && rotation.iter().all(|x| x.is_finite())
+    }
+
     /// The body point `p` (body axes, from the centre of mass) in the world, `R p + x` [m].
     pub fn point(&self, p_body: &Vector3) -> Vector3 {
         self.rotation * p_body + self.position

@@ -5,6 +5,11 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
 #![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
 
+#[path = "random/mod.rs"]
+mod random;
+
+use random::Random;
+
 use bryla::math::{Matrix3, Vector3, quaternion};
 use bryla::trajectory::Trajectory;
 use bryla::{
@@ -188,30 +193,15 @@ fn a_scene_without_a_closed_form_refuses_the_exact_method_by_name() {
     assert!(error.to_string().contains("exact: wrench on body has no closed form"), "{error}");
 }
 
-/// Numbers from a seed (SplitMix64, Steele, Lea, Flood 2014): the same on every machine.
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
     /// Of a size between the limits, evenly in its logarithm.
     fn size(&mut self, low: f64, high: f64) -> f64 {
-        10_f64.powf(self.between(low.log10(), high.log10()))
+        10_f64.powf(self.within(low.log10(), high.log10()))
     }
 
     fn vector(&mut self, length: f64) -> [f64; 3] {
         loop {
-            let v = [0; 3].map(|_| self.between(-1.0, 1.0));
+            let v = [0; 3].map(|_| self.within(-1.0, 1.0));
             let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
             if norm > 0.1 && norm < 1.0 {
                 return v.map(|x| x * length / norm);
@@ -221,13 +211,13 @@ impl Random {
 
     fn orientation(&mut self) -> [f64; 4] {
         let axis = self.vector(1.0);
-        let half: f64 = self.between(0.0, 3.0);
+        let half: f64 = self.within(0.0, 3.0);
         [half.cos(), half.sin() * axis[0], half.sin() * axis[1], half.sin() * axis[2]]
     }
 
     /// A tensor that some mass distribution has, in axes of its own choice.
     fn inertia(&mut self, scale: f64) -> Matrix3 {
-        let squares = [0; 3].map(|_| self.between(0.1, 1.0) * scale);
+        let squares = [0; 3].map(|_| self.within(0.1, 1.0) * scale);
         let moments = [squares[1] + squares[2], squares[0] + squares[2], squares[0] + squares[1]];
         let [w, x, y, z] = self.orientation();
         let r = quaternion::to_matrix(&quaternion::from_scalar_first([w, x, y, z]));
@@ -243,17 +233,17 @@ const FAMILIES: [(&str, fn(&mut Random) -> (Scene, f64)); 6] = [
         let spin = r.size(0.1, 100.0);
         let body = Body::with_inertia("body", 1.0, r.inertia(1.0)).orientation(r.orientation());
         scene.add(body.angular_velocity(r.vector(spin)).velocity(r.vector(1.0))).unwrap();
-        (scene, r.between(5.0, 40.0) / spin)
+        (scene, r.within(5.0, 40.0) / spin)
     }),
     ("driven", |r| {
         let mut scene = Scene::new();
         let body = Body::with_inertia("body", 1.0, r.inertia(1.0)).orientation(r.orientation());
         scene.add(body.angular_velocity(r.vector(2.0)).velocity(r.vector(1.0))).unwrap();
         let (force, torque) = (r.vector(1.0), r.vector(1.0));
-        scene.add_effect(Wrench::new("body", force, torque).oscillating(r.between(0.5, 5.0), r.between(0.0, 6.0)));
+        scene.add_effect(Wrench::new("body", force, torque).oscillating(r.within(0.5, 5.0), r.within(0.0, 6.0)));
         let (force, torque) = (r.vector(0.5), r.vector(0.5));
         scene.add_effect(Wrench::new("body", force, torque).frame(Frame::Body).point(r.vector(0.3)));
-        (scene, r.between(3.0, 10.0))
+        (scene, r.within(3.0, 10.0))
     }),
     ("top", |r| {
         let mut scene = Scene::new();
@@ -261,7 +251,7 @@ const FAMILIES: [(&str, fn(&mut Random) -> (Scene, f64)); 6] = [
         let spin = r.size(0.5, 20.0);
         scene.add(body.orientation(r.orientation()).angular_velocity(r.vector(spin))).unwrap();
         scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
-        (scene, r.between(1.0, 4.0))
+        (scene, r.within(1.0, 4.0))
     }),
     ("projectile", |r| {
         let mut scene = Scene::new();
@@ -270,31 +260,34 @@ const FAMILIES: [(&str, fn(&mut Random) -> (Scene, f64)); 6] = [
         scene.add(body.velocity(r.vector(speed)).angular_velocity(r.vector(spin))).unwrap();
         scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
         scene.add_effect(Drag::new(r.size(1e-3, 0.1), r.size(1e-4, 1e-2)).angular(1e-3, 1e-4).wind(r.vector(5.0)));
-        (scene, r.between(0.5, 3.0))
+        (scene, r.within(0.5, 3.0))
     }),
     ("hovercraft", |r| {
         let mut scene = Scene::new();
         let body = Body::with_inertia("body", 2.0, inertia([0.3, 0.4, 0.5])).freedom(Freedom::planar([0.0, 0.0, 1.0]));
         scene
-            .add(body.velocity([r.between(-1.0, 1.0), 0.3, 0.0]).angular_velocity([0.0, 0.0, r.between(-1.0, 1.0)]))
+            .add(body.velocity([r.within(-1.0, 1.0), 0.3, 0.0]).angular_velocity([0.0, 0.0, r.within(-1.0, 1.0)]))
             .unwrap();
         for point in [[-0.5, 0.0, 0.0], [0.4, 0.2, 0.0], [0.4, -0.2, 0.0]] {
-            let schedule =
-                vec![(r.between(0.0, 1.0), r.unit()), (r.between(1.0, 2.0), r.unit()), (r.between(2.0, 4.0), 0.0)];
+            let schedule = vec![
+                (r.within(0.0, 1.0), r.within(0.0, 1.0)),
+                (r.within(1.0, 2.0), r.within(0.0, 1.0)),
+                (r.within(2.0, 4.0), 0.0),
+            ];
             scene.add_effect(
-                Thruster::new("body", point, [r.between(0.0, 3.0), r.between(-1.0, 1.0), 0.0]).schedule(schedule),
+                Thruster::new("body", point, [r.within(0.0, 3.0), r.within(-1.0, 1.0), 0.0]).schedule(schedule),
             );
         }
         scene.add_effect(Drag::new(0.4, 0.2).angular(0.1, 0.05));
-        (scene, r.between(2.0, 6.0))
+        (scene, r.within(2.0, 6.0))
     }),
     ("satellite", |r| {
         let mut scene = Scene::new();
         let body = Body::with_inertia("body", 1.0, r.inertia(1e-4)).orientation(r.orientation());
-        let speed = r.between(0.8, 1.2);
+        let speed = r.within(0.8, 1.2);
         scene.add(body.position([1.0, 0.0, 0.0]).velocity([0.0, speed, 0.2]).angular_velocity(r.vector(2.0))).unwrap();
         scene.add_effect(PointGravity::new(1.0, [0.0; 3]));
-        (scene, r.between(3.0, 12.0))
+        (scene, r.within(3.0, 12.0))
     }),
 ];
 

@@ -7,7 +7,7 @@ use bryla::effect::{AnyEffect, Drag, Frame, PointGravity, Spring, Thruster, Unif
 use bryla::math::Vector3;
 use bryla::{BodyMotion, Schedule};
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyException, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -417,7 +417,8 @@ impl Functions {
     }
 }
 
-/// What a user's function returns; an exception is kept, and its text returned.
+/// What a user's function returns; an exception is kept, and its text returned. After one that shall end the
+/// program, such as `KeyboardInterrupt`, no function is called any more.
 fn called<T>(
     function: &Py<PyAny>,
     t: f64,
@@ -430,6 +431,12 @@ fn called<T>(
             let motions = PyTuple::new(py, motions.collect::<PyResult<Vec<_>>>()?)?;
             read(&function.bind(py).call1((t, motions))?)
         };
+        let ending = RAISED.with_borrow(|raised| {
+            raised.as_ref().filter(|error| !error.is_instance_of::<PyException>(py)).map(ToString::to_string)
+        });
+        if let Some(text) = ending {
+            return Err(text);
+        }
         call().map_err(|error| {
             let text = error.to_string();
             RAISED.set(Some(error));

@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use bryla::simulation::{Observer, Progress};
+use bryla::integrator::FlightError;
+use bryla::simulation::{self, Observer, Progress};
 use bryla::{RunError, Trajectory};
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
@@ -106,10 +107,11 @@ pub(crate) fn watched<T: Send>(
 /// cause of the failure; one that shall end the program, such as `KeyboardInterrupt`, goes first and
 /// has the failure as its cause.
 pub(crate) fn explained(py: Python<'_>, failure: Failure, interrupted: Option<PyErr>) -> Failure {
-    let Some(behind) = interrupted.or_else(take_raised) else { return failure };
-    if !matches!(failure, Failure::Simulation(_)) {
-        return failure;
-    }
+    let Failure::Simulation(broken) = &failure else { return failure };
+    // a step that a function broke may have been mended since
+    let by_a_function = matches!(broken.kind, simulation::Failure::Flight(FlightError::UserEffect(_)));
+    let raised = take_raised().filter(|raised| by_a_function || !raised.is_instance_of::<PyException>(py));
+    let Some(behind) = interrupted.or(raised) else { return failure };
     let failure = PyErr::from(failure);
     let (first, cause) = if behind.is_instance_of::<PyException>(py) { (failure, behind) } else { (behind, failure) };
     first.set_cause(py, Some(cause));

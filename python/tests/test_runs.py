@@ -286,6 +286,7 @@ def test_other_threads_go_on_while_a_run_runs():
 
 INTERRUPTED = """
 import os, signal, sys, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs are born deaf to it
 sys.path.insert(0, {folder!r})
 from conftest import spinning_scene
 import bryla
@@ -319,6 +320,7 @@ def test_ctrl_c_stops_a_run(call, expected):
 def test_ctrl_c_stops_a_simulation():
     program = """
 import os, signal, sys, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs are born deaf to it
 sys.path.insert(0, {folder!r})
 from conftest import spinning_scene
 simulation = spinning_scene().compile(method="rk4", step=1e-3).start()

@@ -71,6 +71,36 @@ def test_coupled_bodies_come_together_and_get_one_pair_each():
     assert seen == {"tuple"}
 
 
+def once(error, after):
+    """A function that does nothing but raise one exception, at its first call after a time."""
+    raised = []
+
+    def function(t, bodies):
+        if t > after and not raised:
+            raised.append(t)
+            raise error
+        return (0, 0, 0), (0, 0, 0)
+
+    return bryla.UserEffect(function, bodies=["a"]), raised
+
+
+def test_under_a_tolerance_a_step_that_it_breaks_is_tried_again():
+    effect, raised = once(ValueError("too far"), 0.5)
+    run = ball_scene(effect).run((0, 1), tolerance=1e-6)
+    assert raised
+    assert run.report.met
+    # both keep 1e-6 of a path below 3 m
+    np.testing.assert_allclose(run.position, ball_scene().run((0, 1), tolerance=1e-6).position, rtol=0, atol=6e-6)
+
+
+def test_what_ends_the_program_is_not_tried_again():
+    effect, raised = once(KeyboardInterrupt(), 0.5)
+    with pytest.raises(KeyboardInterrupt) as caught:
+        ball_scene(effect).run((0, 1), tolerance=1e-6)
+    assert isinstance(caught.value.__cause__, bryla.SimulationError)
+    assert raised
+
+
 @pytest.mark.parametrize("options", [OPTIONS, {"tolerance": 1e-6}, {"method": "rk4", "step": 1e-2}])
 def test_what_it_raises_is_the_cause(options):
     calls = []
@@ -89,7 +119,7 @@ def test_what_it_raises_is_the_cause(options):
     assert error.bodies == ["a"]
     assert 0.3 < error.time <= 0.52
     assert error.trajectory.end == error.time
-    # what was raised ends the step, and no finer run is tried
+    # a step that breaks is tried twice more, shorter; no finer run is tried
     assert sum(t > 0.5 for t in calls) <= 4
 
 

@@ -14,9 +14,8 @@
 //! Contacts that separate, or rest while others are hit, may be in the list: they take an impulse only if
 //! the impact reaches them.
 //!
-//! Without friction see [`reflection`](super::reflection), with friction
-//! [`friction`](super::friction). The laws of restitution agree for one contact without friction, and
-//! without friction the reflections answer for all three.
+//! Without friction see `contact::reflection`, with friction `contact::friction`. The laws of restitution
+//! agree for one contact without friction, and without friction the reflections answer for all three.
 //!
 //! # Contacts without a single normal
 //! Where normals span a cone (vertex on vertex, parallel edges), the plastic impulse without friction is

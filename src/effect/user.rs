@@ -85,9 +85,12 @@ impl UserEffect {
     }
 
     /// The loads of the function; where it fails, the message is kept and the loads are not finite,
-    /// so that the run stops.
+    /// so that the step is refused. It is not shown motions that are not finite, as those after a failure.
     fn loads(&self, at: Moment, bodies: &[BodyMotion]) -> Vec<(Vector3, Vector3)> {
         let nothing = || vec![(Vector3::repeat(f64::NAN), Vector3::zeros()); bodies.len()];
+        if !bodies.iter().all(BodyMotion::is_finite) {
+            return nothing();
+        }
         match (self.function)(at.time, bodies) {
             Ok(loads) if loads.len() == bodies.len() => loads,
             Ok(loads) => {

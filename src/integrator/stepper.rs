@@ -42,6 +42,10 @@ pub(super) struct Stepper<P: Problem, K> {
     proposal: f64,
     /// Error of the last accepted step, as a part of what is allowed [-].
     last_error: f64,
+    /// How often a user's function gave up since the front was at `failed_end` [s], where the first of these
+    /// steps would have led.
+    failures: u32,
+    failed_end: f64,
 }
 
 /// Growth and shrinkage of a step are kept within these factors [-].
@@ -50,6 +54,8 @@ const GROWTH: (f64, f64) = (0.2, 6.0);
 const CAUTION: f64 = 0.9;
 /// Refusals in a row after which the step is said to have no end [-]: each shortens it by at least a tenth.
 const REFUSALS: u32 = 64;
+/// Steps that a user's function may break before the run ends [-]: each is tried again at a fifth of its length.
+const FAILURES: u32 = 3;
 /// Steps shorter than this part of the instant's size cannot be told from none [-].
 const SHORTEST: f64 = 4.0 * f64::EPSILON;
 /// Least error of the last step that the next takes note of [-].
@@ -74,6 +80,8 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             strayed: 0.0,
             proposal: 0.0,
             last_error: LEAST_ERROR,
+            failures: 0,
+            failed_end: f64::NEG_INFINITY,
         }
     }
 
@@ -175,7 +183,14 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             if size == f64::INFINITY
                 && let Some(message) = problem.take_failure()
             {
-                return Err(FlightError::UserEffect(message));
+                // the path may not lead where the function gave up: shorter, but not for ever
+                if self.failures == 0 {
+                    self.failed_end = self.at.time + h;
+                }
+                self.failures += 1;
+                if self.failures >= FAILURES {
+                    return Err(FlightError::UserEffect(message));
+                }
             }
             if size <= 1.0 {
                 let size = size.max(LEAST_ERROR);
@@ -188,6 +203,9 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
                 self.last_error = size;
                 let time = if last { Time::new(limit) } else { front.time + h };
                 self.accept(problem, front, time, counts);
+                if front.time.value >= self.failed_end {
+                    self.failures = 0;
+                }
                 return Ok(());
             }
 

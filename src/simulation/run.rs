@@ -90,9 +90,9 @@ impl Plan {
         step: f64,
         observer: Observer<'_>,
     ) -> Result<Trajectory, RunError> {
-        let plan = Arc::new(self.clone());
+        let course = Course { plan: Arc::new(self.clone()), span, times };
         let began = thread_seconds();
-        let mut run = pass(&plan, span, times, plan.controls(&Control::Step(step)), 1, observer).map_err(Box::new)?.0;
+        let mut run = course.pass(self.controls(&Control::Step(step)), 1, observer).map_err(Box::new)?.0;
         run.report.seconds.run = thread_seconds() - began;
         run.report.step = step;
         run.report.horizon = run.end;
@@ -107,7 +107,7 @@ impl Plan {
         }
 
         let began = thread_seconds();
-        let coarse = pass(&plan, span, times, plan.controls(&Control::Step(2.0 * step)), 2, observer);
+        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), 2, observer);
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
@@ -140,7 +140,7 @@ impl Plan {
             let allowed = format!("at least {floor:.1e}, what rounding leaves of this scene");
             return Err(Error::value("run", "tolerance", allowed, tolerance).into());
         }
-        let plan = Arc::new(self.clone());
+        let course = Course { plan: Arc::new(self.clone()), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(
             self,
@@ -156,13 +156,13 @@ impl Plan {
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
             let (mut run, nodes) =
-                attempt(&plan, span, times, plan.controls(&pace.control), 3 * number + 1, observer, &mut failure)?;
+                course.attempt(self.controls(&pace.control), 3 * number + 1, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
 
             // one run is enough where nobody asks for its error, or where rounding is all there is
-            let closed = plan.groups().iter().all(|group| group.method == Method::Exact && !group.meets);
+            let closed = self.groups().iter().all(|group| group.method == Method::Exact && !group.meets);
             if closed && estimates {
                 run.report.error_estimate = Some(self.rounding(span));
                 run.report.estimated_by = "rounding of the closed form".into();
@@ -176,11 +176,11 @@ impl Plan {
             let coarser = run;
             let nodes: Vec<Arc<[f64]>> = nodes.into_iter().map(Into::into).collect();
             let cut = |pieces| nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.clone(), pieces })).collect();
-            let (mut coarse, _) = attempt(&plan, span, times, cut(2), 3 * number + 2, observer, &mut None)?;
+            let (mut coarse, _) = course.attempt(cut(2), 3 * number + 2, observer, &mut None)?;
             coarse.report.length_scale = coarser.report.length_scale;
             let before = thread_seconds();
             failure = None;
-            let (mut run, _) = attempt(&plan, span, times, cut(4), 3 * number + 3, observer, &mut failure)?;
+            let (mut run, _) = course.attempt(cut(4), 3 * number + 3, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
@@ -239,25 +239,117 @@ fn finish(
     }
 }
 
-/// One pass; where it breaks off, the run so far, and why in `failure`: what a coarse step broke, a
-/// finer one may mend.
-fn attempt(
-    plan: &Arc<Plan>,
+/// What the passes of a run have in common.
+struct Course<'a> {
+    plan: Arc<Plan>,
     span: Span,
-    times: &[f64],
-    controls: Vec<Control>,
-    number: u32,
-    observer: Observer<'_>,
-    failure: &mut Option<SimulationError>,
-) -> Result<(Trajectory, Vec<Vec<f64>>), RunError> {
-    match pass(plan, span, times, controls, number, observer) {
-        Ok(done) => Ok(done),
-        Err(error) if error.kind.is_final() => Err(Box::new(error).into()),
-        Err(mut error) => {
-            let Some(run) = error.trajectory.take() else { return Err(Box::new(error).into()) };
-            *failure = Some(error);
-            let nodes = vec![vec![span.start, span.end]; plan.groups().len()];
-            Ok((*run, nodes))
+    /// The samples [s].
+    times: &'a [f64],
+}
+
+impl Course<'_> {
+    /// One pass; where it breaks off, the run so far, and why in `failure`: what a coarse step broke, a
+    /// finer one may mend.
+    fn attempt(
+        &self,
+        controls: Vec<Control>,
+        number: u32,
+        observer: Observer<'_>,
+        failure: &mut Option<SimulationError>,
+    ) -> Result<(Trajectory, Vec<Vec<f64>>), RunError> {
+        match self.pass(controls, number, observer) {
+            Ok(done) => Ok(done),
+            Err(error) if error.kind.is_final() => Err(Box::new(error).into()),
+            Err(mut error) => {
+                let Some(run) = error.trajectory.take() else { return Err(Box::new(error).into()) };
+                *failure = Some(error);
+                let nodes = vec![vec![self.span.start, self.span.end]; self.plan.groups().len()];
+                Ok((*run, nodes))
+            }
+        }
+    }
+
+    /// One pass over the span, and the ends of the steps of every group. Every lane goes to its end; where one
+    /// breaks off, the others stop there too.
+    fn pass(
+        &self,
+        controls: Vec<Control>,
+        number: u32,
+        observer: Observer<'_>,
+    ) -> Result<(Trajectory, Vec<Vec<f64>>), SimulationError> {
+        let Self { plan, span, times } = self;
+        let span = *span;
+        let refused = |error: Error| SimulationError {
+            time: span.start,
+            bodies: Vec::new(),
+            kind: Failure::Refused(error.to_string()),
+            trajectory: None,
+        };
+        let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
+        let lanes = simulation.lanes.len();
+        let mut run = Trajectory::new(plan.clone(), times.to_vec());
+        for (group, spec) in plan.groups().iter().enumerate() {
+            let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
+            run.phases.push(plan.phase(group, span.start, &motions, &[]).map_err(refused)?);
+        }
+
+        // those that may meet go by events; the others each on its own
+        let mut broken: Option<SimulationError> = None;
+        let alone = simulation.lanes_alone();
+        let part = |of_all: usize| of_all as f64 / lanes as f64;
+        let meeting = lanes - alone.len();
+        if meeting > 0 {
+            let mut tell = |done: f64| observer(Progress { fraction: part(meeting) * done, pass: number });
+            broken = simulation.advance_meeting(span.end, &mut Some(&mut run), &mut tell).err();
+        }
+        for (k, &lane) in alone.iter().enumerate() {
+            if broken.as_ref().is_some_and(|error| error.kind == Failure::Interrupted) {
+                break;
+            }
+            let to = broken.as_ref().map_or(span.end, |error| error.time);
+            let mut ended = Ok(());
+            while ended.is_ok() && simulation.lanes[lane].flight.front() < to {
+                ended = simulation.step_lane(lane, &mut Some(&mut run));
+                let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
+                let progress = Progress { fraction: part(meeting + k) + part(1) * done, pass: number };
+                if observer(progress).is_break() {
+                    let time = simulation.lanes[lane].flight.front();
+                    ended = Err(simulation.failure(lane, time, Failure::Interrupted));
+                }
+            }
+            if let Err(error) = ended
+                && broken.as_ref().is_none_or(|other| error.time < other.time)
+            {
+                broken = Some(error);
+            }
+        }
+        let to = broken.as_ref().map_or(span.end, |error| error.time);
+        for lane in 0..lanes {
+            // a step that was still open where a run broke off is known up to there
+            if simulation.finish_step(lane, &mut Some(&mut run)).is_err() {
+                continue;
+            }
+            let lane = &mut simulation.lanes[lane];
+            let mut motions = lane.motions.clone();
+            lane.flight.at(lane.flight.front(), &mut motions);
+            run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
+        }
+
+        run.report.counts = simulation.counts();
+        run.report.impacts = simulation.events.len() as u64;
+        run.report.impact_iterations = simulation.iterations;
+        run.events = simulation.events;
+        run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
+        match broken {
+            None => {
+                run.end = span.end;
+                Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
+            }
+            Some(error) => {
+                run.events.retain(|event| event.time <= error.time);
+                run.cut(error.time);
+                Err(SimulationError { trajectory: Some(Box::new(run)), ..error })
+            }
         }
     }
 }
@@ -358,86 +450,3 @@ const GAIN_CAUTION: f64 = 4.0;
 const LEAST_LOCAL: f64 = 1.0e-15;
 /// Largest error of a step in which halving shows the order [-].
 const MOST_LOCAL: f64 = 1.0e-3;
-
-/// One pass over the span, and the ends of the steps of every group. Every lane goes to its end; where one breaks off, the others stop there too.
-fn pass(
-    plan: &Arc<Plan>,
-    span: Span,
-    times: &[f64],
-    controls: Vec<Control>,
-    number: u32,
-    observer: Observer<'_>,
-) -> Result<(Trajectory, Vec<Vec<f64>>), SimulationError> {
-    let refused = |error: Error| SimulationError {
-        time: span.start,
-        bodies: Vec::new(),
-        kind: Failure::Refused(error.to_string()),
-        trajectory: None,
-    };
-    let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
-    let lanes = simulation.lanes.len();
-    let mut run = Trajectory::new(plan.clone(), times.to_vec());
-    for (group, spec) in plan.groups().iter().enumerate() {
-        let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-        run.phases.push(plan.phase(group, span.start, &motions, &[]).map_err(refused)?);
-    }
-
-    // those that may meet go by events; the others each on its own
-    let mut broken: Option<SimulationError> = None;
-    let alone = simulation.lanes_alone();
-    let part = |of_all: usize| of_all as f64 / lanes as f64;
-    let meeting = lanes - alone.len();
-    if meeting > 0 {
-        let mut tell = |done: f64| observer(Progress { fraction: part(meeting) * done, pass: number });
-        broken = simulation.advance_meeting(span.end, &mut Some(&mut run), &mut tell).err();
-    }
-    for (k, &lane) in alone.iter().enumerate() {
-        if broken.as_ref().is_some_and(|error| error.kind == Failure::Interrupted) {
-            break;
-        }
-        let to = broken.as_ref().map_or(span.end, |error| error.time);
-        let mut ended = Ok(());
-        while ended.is_ok() && simulation.lanes[lane].flight.front() < to {
-            ended = simulation.step_lane(lane, &mut Some(&mut run));
-            let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
-            let progress = Progress { fraction: part(meeting + k) + part(1) * done, pass: number };
-            if observer(progress).is_break() {
-                let time = simulation.lanes[lane].flight.front();
-                ended = Err(simulation.failure(lane, time, Failure::Interrupted));
-            }
-        }
-        if let Err(error) = ended
-            && broken.as_ref().is_none_or(|other| error.time < other.time)
-        {
-            broken = Some(error);
-        }
-    }
-    let to = broken.as_ref().map_or(span.end, |error| error.time);
-    for lane in 0..lanes {
-        // a step that was still open where a run broke off is known up to there
-        if simulation.finish_step(lane, &mut Some(&mut run)).is_err() {
-            continue;
-        }
-        let lane = &mut simulation.lanes[lane];
-        let mut motions = lane.motions.clone();
-        lane.flight.at(lane.flight.front(), &mut motions);
-        run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
-    }
-
-    run.report.counts = simulation.counts();
-    run.report.impacts = simulation.events.len() as u64;
-    run.report.impact_iterations = simulation.iterations;
-    run.events = simulation.events;
-    run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
-    match broken {
-        None => {
-            run.end = span.end;
-            Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
-        }
-        Some(error) => {
-            run.events.retain(|event| event.time <= error.time);
-            run.cut(error.time);
-            Err(SimulationError { trajectory: Some(Box::new(run)), ..error })
-        }
-    }
-}

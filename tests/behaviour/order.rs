@@ -45,6 +45,13 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
                 let settled = if at_once { &slopes[..] } else { &slopes[slopes.len() - 1..] };
                 let least = settled.iter().copied().fold(f64::INFINITY, f64::min);
                 assert!(least >= order - 0.1, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
+
+                // and half of all slopes on their way there
+                let mut sorted = slopes.clone();
+                sorted.sort_by(f64::total_cmp);
+                let width = if method.order() <= 4 { 0.1 } else { 0.3 };
+                let middle = sorted[sorted.len() / 2];
+                assert!(middle >= order - width, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
             }
         }
     }

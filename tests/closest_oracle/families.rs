@@ -1,5 +1,6 @@
 //! Seventeen families of pairs: the usual, and the ones that break closest-feature queries.
 
+use crate::random::Random;
 use bryla::math::{Pose, Quaternion, Vector3, quaternion};
 use bryla::shape::convex_polyhedron::ConvexPolyhedron;
 
@@ -36,45 +37,18 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("rest_pen", rest_pen),
 ];
 
-/// Splitmix64 (Steele, Lea and Flood 2014), seeded by a name.
-#[derive(Debug)]
-pub(crate) struct Random(u64);
+/// A sequence of its own for every family.
+pub(crate) fn random(name: &str) -> Random {
+    Random(name.bytes().fold(0xcbf29ce484222325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100000001b3)))
+}
 
 impl Random {
-    pub(crate) fn new(name: &str) -> Self {
-        Self(name.bytes().fold(0xcbf29ce484222325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100000001b3)))
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E3779B97F4A7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58476D1CE4E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D049BB133111EB);
-        z ^ (z >> 31)
-    }
-
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / 9007199254740992.0
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
     fn step(&mut self, reach: u64, grid: f64) -> f64 {
         grid * (self.below(2 * reach + 1) as f64 - reach as f64)
     }
 
     fn decade(&mut self, low: f64, high: f64) -> f64 {
         libm::exp(self.within(libm::log(low), libm::log(high)))
-    }
-
-    pub(crate) fn direction(&mut self) -> Vector3 {
-        loop {
-            let v = Vector3::new(self.within(-1.0, 1.0), self.within(-1.0, 1.0), self.within(-1.0, 1.0));
-            if (0.1..1.0).contains(&v.norm()) {
-                return v / v.norm();
-            }
-        }
     }
 
     pub(crate) fn orientation(&mut self) -> Quaternion {

@@ -15,6 +15,8 @@
 mod families;
 mod oracle;
 mod parry;
+#[path = "../random/mod.rs"]
+mod random;
 mod regressions;
 
 use bryla::closest::{Accuracy, ClosestFeatures, PairCache, Rung, State, closest_features};
@@ -60,8 +62,8 @@ struct Tally {
     steps: u32,
 }
 
-fn run_family(name: &str, make: fn(&mut families::Random) -> Case, pairs: usize) -> Tally {
-    let mut random = families::Random::new(name);
+fn run_family(name: &str, make: fn(&mut random::Random) -> Case, pairs: usize) -> Tally {
+    let mut random = families::random(name);
     let mut tally = Tally::default();
     let mut foreign = PairCache::new();
     for k in 0..pairs {
@@ -122,7 +124,7 @@ fn run(pairs: usize) {
 fn parry_agrees_or_is_wrong() {
     println!("family            pairs  distance off  contact off  contact none");
     for &(name, make) in FAMILIES {
-        let mut random = families::Random::new(name);
+        let mut random = families::random(name);
         let (mut distance_off, mut contact_off, mut none) = (0, 0, 0);
         for _ in 0..40 {
             let Case { a, pose_a, b, pose_b } = make(&mut random);

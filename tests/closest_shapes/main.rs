@@ -12,41 +12,17 @@
 
 mod closed_forms;
 mod proof;
+#[path = "../random/mod.rs"]
+mod random;
 mod regressions;
+
+use random::Random;
 
 use bryla::closest::{Accuracy, Collider, PairCache, Rung, State, closest_features};
 use bryla::math::{Pose, Vector3, quaternion};
 use bryla::shape::{Capsule, Compound, Cone, Cuboid, Cylinder, Ellipsoid, HalfSpace, Piece, Polyhedron, Shape, Sphere};
 
-/// Splitmix64 (Steele, Lea and Flood 2014).
-#[derive(Debug)]
-pub(crate) struct Random(pub(crate) u64);
-
 impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E3779B97F4A7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58476D1CE4E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D049BB133111EB);
-        z ^ (z >> 31)
-    }
-
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / 9007199254740992.0
-    }
-
-    pub(crate) fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    pub(crate) fn direction(&mut self) -> Vector3 {
-        loop {
-            let v = Vector3::new(self.within(-1.0, 1.0), self.within(-1.0, 1.0), self.within(-1.0, 1.0));
-            if (0.1..1.0).contains(&v.norm()) {
-                return v / v.norm();
-            }
-        }
-    }
-
     pub(crate) fn pose(&mut self, position: Vector3) -> Pose {
         let turn = quaternion::from_axis_angle(&self.direction(), self.within(0.0, 6.0));
         Pose { position, orientation: turn }

@@ -5,7 +5,7 @@ use bryla::math::double_double::DoubleDouble as Dd;
 use bryla::math::{Pose, Vector3};
 use bryla::shape::Shape;
 
-use crate::Random;
+use crate::random::Random;
 
 type V = [Dd; 3];
 

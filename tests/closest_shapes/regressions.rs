@@ -4,7 +4,8 @@ use bryla::closest::{Accuracy, ClosestFeatures, Collider, Feature, State, closes
 use bryla::math::Pose;
 use bryla::shape::{Cuboid, Cylinder, Shape, Sphere};
 
-use crate::{Random, proof};
+use crate::proof;
+use crate::random::Random;
 
 /// The answer, after its own proof.
 fn proved(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> ClosestFeatures {

@@ -5,6 +5,7 @@ use bryla::contact::cluster::{ClusterBody, ClusterError, Contact, Velocity};
 use bryla::contact::collision::{Law, collide};
 use bryla::math::{Matrix3, Vector3};
 
+use super::random::Random;
 use super::{TIGHT, answer, ball, before, body, close, corners, cube, momenta, upright, vector};
 
 #[test]
@@ -414,23 +415,13 @@ fn what_cannot_be_answered_is_refused_by_name() {
     assert!(matches!(collide(&lost, &[good()], Law::default()), Err(ClusterError::NotFinite { body: 1 })));
 }
 
-/// Numbers in 0..1 from a counter: the same on every run (splitmix64, Steele et al. 2014).
-struct Numbers(u64);
-
-impl Numbers {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        x ^ (x >> 31)
-    }
-
+impl Random {
     fn next(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+        self.within(0.0, 1.0)
     }
 
-    fn below(&mut self, count: usize) -> usize {
-        usize::try_from(self.bits() % count as u64).unwrap_or(0)
+    fn place(&mut self, count: usize) -> usize {
+        usize::try_from(self.below(count as u64)).unwrap_or(0)
     }
 
     fn vector(&mut self, size: f64) -> Vector3 {
@@ -449,12 +440,12 @@ impl Numbers {
     /// normals.
     fn cluster(&mut self, friction: f64) -> (Vec<ClusterBody>, Vec<Contact>) {
         let mut bodies = vec![ClusterBody::fixed()];
-        bodies.extend((0..=self.below(3)).map(|_| self.body()));
+        bodies.extend((0..=self.place(3)).map(|_| self.body()));
         let mut contacts = Vec::new();
-        for _ in 0..=self.below(8) {
-            let (a, b) = (self.below(bodies.len()), self.below(bodies.len()));
+        for _ in 0..=self.place(8) {
+            let (a, b) = (self.place(bodies.len()), self.place(bodies.len()));
             let (point, normal) = (self.vector(1.0), self.vector(1.0).normalize());
-            let restitution = [0.0, 1.0, self.next()][self.below(3)];
+            let restitution = [0.0, 1.0, self.next()][self.place(3)];
             let contact = Contact::new(a, b, point, normal).friction(friction * self.next()).restitution(restitution);
             if a != b {
                 contacts.push(contact);
@@ -515,7 +506,7 @@ fn keep_promises(bodies: &[ClusterBody], contacts: &[Contact], law: Law) -> f64 
 
 #[test]
 fn clusters_without_friction_keep_all_promises() {
-    let mut numbers = Numbers(1);
+    let mut numbers = Random(1);
     for _ in 0..3000 {
         let (bodies, contacts) = numbers.cluster(0.0);
         let residual = keep_promises(&bodies, &contacts, Law::Newton);
@@ -533,7 +524,7 @@ fn clusters_without_friction_keep_all_promises() {
 #[test]
 fn clusters_with_friction_keep_all_promises() {
     for (k, law) in Law::ALL.iter().enumerate() {
-        let mut numbers = Numbers(100 + k as u64);
+        let mut numbers = Random(100 + k as u64);
         let mut short = 0;
         for _ in 0..2000 {
             let (bodies, contacts) = numbers.cluster(1.0);

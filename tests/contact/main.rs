@@ -7,6 +7,8 @@
 mod impacts;
 mod lasting;
 mod manifolds;
+#[path = "../random/mod.rs"]
+mod random;
 
 use bryla::BodyMotion;
 use bryla::contact::cluster::{ClusterBody, Contact, Velocity};
