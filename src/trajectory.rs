@@ -22,9 +22,9 @@ pub enum EventKind {
     Bounce,
     /// A body came to rest on another.
     Stick,
-    /// One of the small hops by which bodies that stay in contact slide, roll or rock on each other.
-    Hop,
-    /// A body was found in equilibrium with its bounces over, and rests from there until it is hit.
+    /// Bodies stay in contact from here on: they slide, roll or tip on each other.
+    Contact,
+    /// Bodies rest on each other from here on, in equilibrium, until something hits them or a load changes.
     Rest,
 }
 
@@ -34,7 +34,7 @@ impl EventKind {
         match self {
             Self::Bounce => "bounce",
             Self::Stick => "stick",
-            Self::Hop => "hop",
+            Self::Contact => "contact",
             Self::Rest => "rest",
         }
     }
@@ -70,6 +70,35 @@ pub struct Event {
     pub other_angular_velocity: [Vector3; 2],
     /// Kinetic energy lost [J].
     pub energy_lost: f64,
+}
+
+/// Heat of contacts outside of events: of friction over a time, of what gentle impacts take at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Heat {
+    /// When it begins [s].
+    pub(crate) from: f64,
+    /// When it ends [s].
+    pub(crate) to: f64,
+    /// How much [J].
+    pub(crate) joules: f64,
+    /// Power at both ends [W].
+    pub(crate) power: [f64; 2],
+}
+
+impl Heat {
+    /// Heat of an instant [s], [J].
+    pub(crate) fn at(time: f64, joules: f64) -> Self {
+        Self { from: time, to: time, joules, power: [0.0; 2] }
+    }
+
+    /// What has come by a time within it [s]: the cubic through both ends and their powers [J].
+    fn until(&self, t: f64) -> f64 {
+        let h = self.to - self.from;
+        let s = ((t - self.from) / h).clamp(0.0, 1.0);
+        let [p0, p1] = self.power.map(|p| h * p);
+        s * (p0 + s * (3.0 * self.joules - 2.0 * p0 - p1 + s * (p0 + p1 - 2.0 * self.joules)))
+    }
 }
 
 /// The motion of a group while its bodies keep their coordinates.
@@ -157,6 +186,7 @@ pub struct Trajectory {
     pub(crate) states: Vec<BodyState>,
     pub(crate) phases: Vec<Phase>,
     pub(crate) events: Vec<Event>,
+    pub(crate) heat: Vec<Heat>,
     pub(crate) report: Report,
     /// How far the motion is known [s].
     pub(crate) end: f64,
@@ -169,7 +199,7 @@ impl Trajectory {
         let states = rest.iter().cycle().take(times.len() * rest.len()).copied().collect();
         let end = times.first().copied().unwrap_or_default();
         let report = Report::new(&plan);
-        Self { plan, times, states, phases: Vec::new(), events: Vec::new(), report, end }
+        Self { plan, times, states, phases: Vec::new(), events: Vec::new(), heat: Vec::new(), report, end }
     }
 
     /// Whether a step up to `end` [s] is looked into: its motion is kept, or holds the sample at `cursor`.
@@ -352,6 +382,19 @@ impl Trajectory {
         for event in &self.events {
             let after = self.times.partition_point(|&t| t < event.time);
             energy.dissipated[after..].iter_mut().for_each(|d| *d += event.energy_lost);
+        }
+
+        // friction's heat, within a step in proportion to time
+        let longest = self.heat.iter().map(|heat| heat.to - heat.from).fold(0.0, f64::max);
+        let (mut next, mut done) = (0, 0.0);
+        for (sample, &t) in self.times.iter().enumerate() {
+            while let Some(heat) = self.heat.get(next).filter(|heat| heat.to <= t) {
+                done += heat.joules;
+                next += 1;
+            }
+            let open = self.heat[next..].iter().take_while(|heat| heat.to <= t + longest);
+            let part = open.filter(|heat| heat.from < t).map(|heat| heat.until(t));
+            energy.dissipated[sample] += done + part.sum::<f64>();
         }
         Ok(energy)
     }

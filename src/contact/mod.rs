@@ -15,6 +15,7 @@
 //! | [`stick`] | merging bodies into one |
 //! | [`accumulation`] | when bounces have no end but a last instant |
 //! | [`rest`] | forces of contacts that last |
+//! | [`anchor`] | where a contact that lasts goes when its bodies move |
 //! | [`solver`] | the problems beneath, each answer with its residual |
 //! | [`bounce`] | the formula of one point against a fixed plane |
 //!
@@ -28,6 +29,7 @@
 //!    is held.
 
 pub mod accumulation;
+pub mod anchor;
 pub mod bounce;
 pub mod broad_phase;
 pub mod cluster;

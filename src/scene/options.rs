@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+pub use crate::contact::collision::Law;
 use crate::error::{Error, Result};
 pub use crate::impact::Finder;
 use crate::integrator::Method;
@@ -123,6 +124,8 @@ pub struct RunOptions {
     /// Gap at which a contact is accepted [m]; 1e-12 of the pair's size if absent.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub eps: Option<f64>,
+    /// What restitution means where friction couples the normal and the tangent.
+    pub restitution_law: Law,
 }
 
 impl Default for RunOptions {
@@ -140,6 +143,7 @@ impl Default for RunOptions {
             projection: true,
             finder: Finder::Guaranteed,
             eps: None,
+            restitution_law: Law::Newton,
         }
     }
 }
@@ -224,6 +228,13 @@ impl RunOptions {
     #[must_use]
     pub fn eps(mut self, eps: f64) -> Self {
         self.eps = Some(eps);
+        self
+    }
+
+    /// What restitution means where friction couples the normal and the tangent.
+    #[must_use]
+    pub fn restitution_law(mut self, law: Law) -> Self {
+        self.restitution_law = law;
         self
     }
 

@@ -10,18 +10,23 @@
 
 use std::sync::Arc;
 
+use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
 use crate::integrator::{Control, Counts, Flight, FlightError};
 use crate::plan::Plan;
 use crate::scene::Span;
 use crate::state::{BodyMotion, BodyState};
-use crate::trajectory::{Event, Phase, Trajectory};
+use crate::trajectory::{Event, Heat, Phase, Trajectory};
+use lasting::Together;
 use near::Near;
 
+mod answer;
 pub(crate) mod clock;
+mod cluster;
 pub(crate) mod estimate;
 mod events;
+mod lasting;
 mod near;
 mod path;
 mod run;
@@ -52,9 +57,12 @@ pub enum Failure {
     /// See [`FlightError`].
     #[error(transparent)]
     Flight(#[from] FlightError),
-    /// Bounces follow each other ever faster, or the bodies rest on each other.
-    #[error("AccumulatingImpacts: bounces follow each other without end, or the bodies rest on each other; {0}")]
+    /// Bounces follow each other without end.
+    #[error("AccumulatingImpacts: bounces follow each other without end; {0}")]
     AccumulatingImpacts(String),
+    /// Bodies stay in a contact that this version cannot follow; why.
+    #[error("LastingContact: the bodies stay in contact, which cannot be followed further: {0}")]
+    LastingContact(String),
     /// The bodies overlap where they must not.
     #[error("the bodies overlap by {0:e} m")]
     Overlap(f64),
@@ -98,8 +106,10 @@ struct Lane {
     charts: Vec<Chart>,
     /// The switch ahead [s] of a step that was taken but is not yet recorded: an impact may cut it.
     pending: Option<f64>,
-    /// Bodies that stick to a fixed one, as places in the scene.
+    /// Bodies that rest, as places in the scene.
     held: Vec<usize>,
+    /// The part that the lane's body is led with, where it stays in contact and moves.
+    led: Option<usize>,
     /// Work of flights that impacts have ended.
     earlier: Counts,
     /// Motions at the instant under consideration.
@@ -127,8 +137,20 @@ pub struct Simulation {
     /// Where each body flies: lane, and place in it; none of fixed bodies.
     places: Vec<Option<(usize, usize)>>,
     near: Near,
+    /// Bodies that stay in contact and move, part by part.
+    together: Vec<Option<Together>>,
+    together_number: u64,
+    /// Bodies that have stuck to a fixed one, for good.
+    stuck: Vec<usize>,
+    /// Pairs that the laws of contact let go at the instant under consideration.
+    released: Vec<[usize; 2]>,
+    /// The last bounces of each pair, and when they would end [s].
+    bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
+    heat: Vec<Heat>,
     iterations: u64,
+    /// How many times wider this pass takes ε [-]: passes that differ in it show what hangs on it.
+    looseness: f64,
 }
 
 impl Plan {
@@ -164,6 +186,7 @@ impl Simulation {
                 charts: plan.charts(group, &[])?,
                 pending: None,
                 held: Vec::new(),
+                led: None,
                 earlier: Counts::default(),
                 motions,
                 kink: None,
@@ -180,8 +203,24 @@ impl Simulation {
             }
         }
         let near = Near::default();
-        let (time, end, events) = (span.start, span.end, Vec::new());
-        Ok(Self { plan, controls, time, end, lanes, places, near, events, iterations: 0 })
+        Ok(Self {
+            plan,
+            controls,
+            time: span.start,
+            end: span.end,
+            lanes,
+            places,
+            near,
+            together: Vec::new(),
+            together_number: 0,
+            stuck: Vec::new(),
+            released: Vec::new(),
+            bounces: Vec::new(),
+            events: Vec::new(),
+            heat: Vec::new(),
+            iterations: 0,
+            looseness: 1.0,
+        })
     }
 
     /// The plan that runs.

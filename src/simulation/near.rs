@@ -25,6 +25,10 @@ pub(super) enum What {
     Touch { bodies: [usize; 2], flights: [u64; 2], iterations: u32 },
     /// The window of this number ends.
     Window { body: usize, number: u64 },
+    /// The step of this number ends, of bodies that are led together.
+    Step { slot: usize, number: u64 },
+    /// The load of a body that rests jumps, if it still rests in the flight of this number.
+    Wake { body: usize, number: u64 },
 }
 
 /// Something that is due at a time.
@@ -36,11 +40,13 @@ pub(super) struct Due {
 }
 
 impl Due {
-    /// Touches before windows, then by body: the order is the same in every run.
+    /// Touches before steps before windows, then by body: the order is the same in every run.
     fn order(&self) -> (u8, usize, usize) {
         match self.what {
             What::Touch { bodies: [a, b], .. } => (0, a, b),
-            What::Window { body, .. } => (1, body, 0),
+            What::Step { slot, .. } => (1, slot, 0),
+            What::Wake { body, .. } => (2, body, 0),
+            What::Window { body, .. } => (3, body, 0),
         }
     }
 }

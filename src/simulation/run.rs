@@ -338,6 +338,8 @@ impl Course<'_> {
         run.report.counts = simulation.counts();
         run.report.impacts = simulation.events.len() as u64;
         run.report.impact_iterations = simulation.iterations;
+        run.heat = simulation.heat;
+        run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
         match broken {
