@@ -92,6 +92,14 @@ impl Heat {
         Self { from: time, to: time, joules, power: [0.0; 2] }
     }
 
+    /// Ends it at a time within it [s], by what has come till then.
+    pub(crate) fn cut(&mut self, t: f64) {
+        let joules = self.until(t);
+        let near = 1e-3 * (self.to - self.from);
+        let last = (self.until(t) - self.until(t - near)) / near;
+        *self = Self { to: t, joules, power: [self.power[0], last], ..*self };
+    }
+
     /// What has come by a time within it [s]: the cubic through both ends and their powers [J].
     fn until(&self, t: f64) -> f64 {
         let h = self.to - self.from;

@@ -1,12 +1,12 @@
 //! What happens at an instant of contact: impact, merging with what is fixed, and who stays together after it.
 //!
 //! ```text
-//! u > v_rest      a bounce with the pair's restitution
+//! u > v_rest      a bounce with the pairs' restitutions, also of pairs that the blow reaches only
 //! u ≤ v_rest      no bounce: its height, and all that would follow it, is below REST_RISE of the size
 //! v_rest = √(2 a REST_RISE size)        a: the loads' acceleration
 //! ```
 //!
-//! u is the speed of approach of a contact. Bounces that accumulate end so; when they would have ended is told
+//! u is the fastest approach of the cluster. Bounces that accumulate end so; when they would have ended is told
 //! by their series (`contact::accumulation`), and is the time of the event.
 
 use super::cluster::{Cluster, in_words};
@@ -217,8 +217,8 @@ impl Simulation {
             return Ok(false);
         }
         let mut contacts = cluster.contacts.clone();
-        for (contact, _) in contacts.iter_mut().zip(&approaches).filter(|(_, u)| **u <= pace.rest) {
-            contact.restitution = 0.0;
+        if approaches.iter().all(|&u| u <= pace.rest) {
+            contacts.iter_mut().for_each(|contact| contact.restitution = 0.0);
         }
         let bodies = self.cluster_bodies(cluster, &cluster.motions);
         let collision =
@@ -407,7 +407,11 @@ impl Simulation {
         // parts that were led are led anew
         let slots: Vec<usize> = cluster.bodies.iter().filter_map(|&body| self.slot(body)).collect();
         for slot in slots {
-            self.together[slot] = None;
+            let part = self.together[slot].take();
+            let heat = part.and_then(|part| part.heat).and_then(|at| self.heat.get_mut(at));
+            if let Some(heat) = heat.filter(|heat| heat.to > time.value && heat.from < time.value) {
+                heat.cut(time.value);
+            }
         }
         let mut lanes: Vec<usize> = Vec::new();
         for (place, &body) in cluster.bodies.iter().enumerate() {

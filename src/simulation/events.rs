@@ -275,12 +275,12 @@ impl Simulation {
 
     /// The gap asked for, as this pass takes it [m].
     pub(super) fn eps_given(&self) -> Option<f64> {
-        self.plan.options().eps.map(|eps| self.looseness * eps)
+        self.plan.options().eps.map(|eps| self.grain.eps * eps)
     }
 
     /// Gap at which a contact of two bodies is accepted [m]; the search keeps it above rounding.
     pub(super) fn eps(&self, a: usize, b: usize) -> f64 {
-        self.eps_given().unwrap_or(self.looseness * IMPACT_GAP * self.size(a, b))
+        self.eps_given().unwrap_or(self.grain.eps * IMPACT_GAP * self.size(a, b))
     }
 
     pub(super) fn failure_of(&self, bodies: &[usize], time: f64, kind: Failure) -> SimulationError {

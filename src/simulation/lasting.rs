@@ -28,10 +28,7 @@ use crate::trajectory::{Heat, decode};
 
 /// Length of a contact's step, in times that its loads take for its size, and in radians [-]. Smaller: errors of
 /// sliding, rolling and tipping fall with its fourth power.
-const STEP: f64 = 0.02;
-/// Slip below which a contact counts as sticking, in speeds that its loads give over its size [-]. The step in
-/// which a slip ends leaves some 1e-10 of it.
-const SLIP: f64 = 1.0e-7;
+const STEP: f64 = 0.04;
 /// Acceleration that contact forces may leave of the loads' for an equilibrium [-]; solvers leave 1e-11.
 const EQUILIBRIUM: f64 = 1.0e-9;
 /// How much faster than μ a friction may change a slip, at a corner far from the centre of mass [-].
@@ -55,6 +52,8 @@ pub(super) struct Together {
     pub(super) pairs: Vec<[usize; 2]>,
     /// Which contacts go on sliding, however slowly: their pair, point [m] and direction.
     pub(super) sliding: Vec<([usize; 2], Vector3, Vector3)>,
+    /// Place of its heat among all.
+    pub(super) heat: Option<usize>,
 }
 
 /// A part of a cluster that stays together.
@@ -339,11 +338,10 @@ impl Simulation {
         let fastest = part.places.iter().map(|&p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
         let by_load = if pace.pull > 0.0 { (pace.size / pace.pull).sqrt() } else { f64::INFINITY };
         let by_turning = if fastest > 0.0 { 1.0 / fastest } else { f64::INFINITY };
-        let own = STEP * by_load.min(by_turning);
+        let own = self.grain.step * STEP * by_load.min(by_turning);
         let own = match &self.controls[self.lanes[led[0].lane].group] {
             Control::Step(step) => own.min(*step),
-            Control::Error(_) => own,
-            Control::Mesh(mesh) => own / f64::from(mesh.pieces),
+            Control::Error(_) | Control::Mesh(_) => own,
         };
         let left = time.until(next);
         let mut h = if own < left { own } else { left };
@@ -387,7 +385,8 @@ impl Simulation {
             lane.flight.resume(&Front { time: front, since, y: end.y1.clone(), rest }, segment, counts);
             lane.pending = Some(f64::INFINITY);
         }
-        if step.heat != 0.0 {
+        let heat = (step.heat != 0.0).then_some(self.heat.len());
+        if heat.is_some() {
             let (from, to) = (time.value, front.value);
             self.heat.push(Heat { from, to, joules: step.heat, power: step.power });
         }
@@ -416,21 +415,7 @@ impl Simulation {
                 self.lanes[lane].led = Some(slot);
             }
         }
-        if std::env::var("DBG").is_ok() {
-            let m = &step.motions[part.places[0]];
-            eprintln!(
-                "lead t={:.9} h={:.3e} n={} slides {:?} x {:?} v {:?} w {:?} heat {:e}",
-                time.value,
-                h,
-                part.contacts.len(),
-                part.slides.iter().map(|s| s.map(|s| [s.x, s.y])).collect::<Vec<_>>(),
-                m.position.as_slice(),
-                m.velocity.as_slice(),
-                m.angular_velocity.as_slice(),
-                step.heat
-            );
-        }
-        self.together[slot] = Some(Together { number, bodies, pairs, sliding });
+        self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat });
         self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
         Ok(())
     }
@@ -527,7 +512,7 @@ impl Simulation {
         for (n, y) in led.iter().zip(&mut y1) {
             n.chart.encode(&motions[n.place].state(), y);
         }
-        let last = self.rates_under(cluster, led, &motions, &y1, &held, time + h);
+        let last = self.rates_under(led, &motions, &y1, &held, time + h);
         let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
         Ok(Step { h, kind, ends, motions, heat, power, drift })
     }
@@ -617,14 +602,13 @@ impl Simulation {
         };
         let slides: Vec<Option<Vector3>> = part.contacts.iter().zip(&part.slides).map(slide).collect();
         let held = self.held(cluster, motions, &part.contacts, &slides, time)?;
-        let rates = self.rates_under(cluster, led, motions, y, &held, time);
+        let rates = self.rates_under(led, motions, y, &held, time);
         Ok((held, rates))
     }
 
     /// The rates of the numbers under the loads and these contact forces.
     fn rates_under(
         &self,
-        cluster: &Cluster,
         led: &[Numbers],
         motions: &[BodyMotion],
         y: &[Vec<f64>],

@@ -149,8 +149,26 @@ pub struct Simulation {
     events: Vec<Event>,
     heat: Vec<Heat>,
     iterations: u64,
-    /// How many times wider this pass takes ε [-]: passes that differ in it show what hangs on it.
-    looseness: f64,
+    grain: Grain,
+}
+
+/// How finely a pass looks at contacts: passes that differ in it show what hangs on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Grain {
+    /// ε, in that of the options [-].
+    eps: f64,
+    /// Steps of contacts that last, in their own [-].
+    step: f64,
+}
+
+impl Grain {
+    /// What the options say.
+    const FINE: Self = Self { eps: 1.0, step: 1.0 };
+
+    /// So many times coarser.
+    fn times(times: f64) -> Self {
+        Self { eps: times, step: times }
+    }
 }
 
 impl Plan {
@@ -219,7 +237,7 @@ impl Simulation {
             events: Vec::new(),
             heat: Vec::new(),
             iterations: 0,
-            looseness: 1.0,
+            grain: Grain::FINE,
         })
     }
 
@@ -345,13 +363,13 @@ impl Simulation {
         if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {
             (lane.kink, lane.corrections) = (None, 0);
         }
-        lane.pending = Some(switch);
         let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
         if (looked_at || spec.meets)
             && let Err(error) = lane.flight.interpolate()
         {
             return Err(self.failure(index, front, error.into()));
         }
+        self.lanes[index].pending = Some(switch);
         Ok(())
     }
 

@@ -97,7 +97,8 @@ impl Near {
     pub(super) fn open(&mut self, body: usize, to: f64, aabb: Option<Aabb>) -> u64 {
         let before = self.windows[body];
         let number = before.map_or(0, |window| window.number + 1);
-        let hit = before.map_or((f64::NEG_INFINITY, 0), |window| window.hit);
+        let hit = before.map_or((f64::MIN, 0), |window| window.hit);
+        let to = to.min(f64::MAX); // a file has no infinity
         self.windows[body] = Some(Window { to, number, aabb, hit });
         match aabb {
             Some(aabb) => self.tree.put(body, aabb),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::clock::thread_seconds;
 use super::estimate::{self, Comparison};
-use super::{Failure, RunError, Simulation, SimulationError};
+use super::{Failure, Grain, RunError, Simulation, SimulationError};
 use crate::error::{Error, Result};
 use crate::freedom::Scales;
 use crate::integrator::{Control, Limits, Mesh, Method};
@@ -92,7 +92,7 @@ impl Plan {
     ) -> Result<Trajectory, RunError> {
         let course = Course { plan: Arc::new(self.clone()), span, times };
         let began = thread_seconds();
-        let mut run = course.pass(self.controls(&Control::Step(step)), 1, observer).map_err(Box::new)?.0;
+        let mut run = course.pass(self.controls(&Control::Step(step)), Grain::FINE, 1, observer).map_err(Box::new)?.0;
         run.report.seconds.run = thread_seconds() - began;
         run.report.step = step;
         run.report.horizon = run.end;
@@ -100,21 +100,26 @@ impl Plan {
         if !self.options().estimate {
             return Ok(run);
         }
-        if self.groups().iter().all(|group| group.method == Method::Exact) {
+        if self.is_closed() && run.events.is_empty() {
             run.report.error_estimate = Some(self.rounding(span));
             run.report.estimated_by = "rounding of the closed form".into();
             return Ok(run);
         }
 
         let began = thread_seconds();
-        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), 2, observer);
+        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), Grain::times(2.0), 2, observer);
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
-                let gain = libm::pow(2.0, f64::from(self.method().order()));
+                let gain = if run.events.is_empty() { full_gain(self.method()) } else { EVENT_GAIN };
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
-                run.report.error_estimate = Some(comparison.worst);
+                run.report.error_estimate = Some(comparison.within_horizon);
                 run.report.estimated_by = "against a second run with twice the step".into();
+                if comparison.worst > comparison.within_horizon {
+                    run.report.horizon = comparison.horizon;
+                    run.report.estimated_by =
+                        "up to the horizon, after which the impacts of a second run differ".into();
+                }
             }
             Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
             Err(_) => run.report.estimated_by = "not estimated: a second run with twice the step broke off".into(),
@@ -152,17 +157,22 @@ impl Plan {
                 FIRST_LOCAL
             },
         );
-        let began = thread_seconds();
+        let (began, mut mismatches) = (thread_seconds(), 0);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
-            let (mut run, nodes) =
-                course.attempt(self.controls(&pace.control), 3 * number + 1, observer, &mut failure)?;
+            let (mut run, nodes) = course.attempt(
+                self.controls(&pace.control),
+                pace.grain(4.0),
+                3 * number + 1,
+                observer,
+                &mut failure,
+            )?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
 
             // one run is enough where nobody asks for its error, or where rounding is all there is
-            let closed = self.groups().iter().all(|group| group.method == Method::Exact && !group.meets);
+            let closed = self.is_closed() && run.events.is_empty();
             if closed && estimates {
                 run.report.error_estimate = Some(self.rounding(span));
                 run.report.estimated_by = "rounding of the closed form".into();
@@ -176,22 +186,30 @@ impl Plan {
             let coarser = run;
             let nodes: Vec<Arc<[f64]>> = nodes.into_iter().map(Into::into).collect();
             let cut = |pieces| nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.clone(), pieces })).collect();
-            let (mut coarse, _) = course.attempt(cut(2), 3 * number + 2, observer, &mut None)?;
+            let (mut coarse, _) = course.attempt(cut(2), pace.grain(2.0), 3 * number + 2, observer, &mut None)?;
             coarse.report.length_scale = coarser.report.length_scale;
             let before = thread_seconds();
             failure = None;
-            let (mut run, _) = course.attempt(cut(4), 3 * number + 3, observer, &mut failure)?;
+            let (mut run, _) = course.attempt(cut(4), pace.grain(1.0), 3 * number + 3, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
-            let gain = observed_gain(self.method(), &coarser, &coarse, &run);
+            let gain =
+                if run.events.is_empty() { observed_gain(self.method(), &coarser, &coarse, &run) } else { EVENT_GAIN };
             let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
             run.report.error_estimate = Some(comparison.within_horizon);
-            run.report.estimated_by = "against runs with steps twice and four times as long".into();
+            run.report.estimated_by = if comparison.worst.is_finite() {
+                "against runs with steps twice and four times as long".into()
+            } else {
+                "up to the horizon, after which the impacts of a second run differ".into()
+            };
             run.report.met = Some(comparison.worst <= tolerance);
             let next = pace.finer(self.method(), tolerance, comparison.worst);
             let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
-            if comparison.worst <= tolerance || pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS {
+            let differs = comparison.worst.is_infinite() && !run.events.is_empty();
+            mismatches += u32::from(differs);
+            let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
+            if comparison.worst <= tolerance || is_last {
                 return finish(run, span, tolerance, &pace, failure).map(|mut run| {
                     run.report.horizon = comparison.horizon;
                     run
@@ -201,6 +219,11 @@ impl Plan {
             pace.measure_by(run.report.length_scale);
         }
         Err(Error::refused("run", "no pass was made").into())
+    }
+
+    /// Whether every flight has a closed form.
+    fn is_closed(&self) -> bool {
+        self.groups().iter().all(|group| group.method == Method::Exact)
     }
 
     /// Error that rounding alone leaves of a run [-]: some ε for every radian turned.
@@ -253,11 +276,12 @@ impl Course<'_> {
     fn attempt(
         &self,
         controls: Vec<Control>,
+        grain: Grain,
         number: u32,
         observer: Observer<'_>,
         failure: &mut Option<SimulationError>,
     ) -> Result<(Trajectory, Vec<Vec<f64>>), RunError> {
-        match self.pass(controls, number, observer) {
+        match self.pass(controls, grain, number, observer) {
             Ok(done) => Ok(done),
             Err(error) if error.kind.is_final() => Err(Box::new(error).into()),
             Err(mut error) => {
@@ -274,6 +298,7 @@ impl Course<'_> {
     fn pass(
         &self,
         controls: Vec<Control>,
+        grain: Grain,
         number: u32,
         observer: Observer<'_>,
     ) -> Result<(Trajectory, Vec<Vec<f64>>), SimulationError> {
@@ -286,6 +311,7 @@ impl Course<'_> {
             trajectory: None,
         };
         let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
+        simulation.grain = grain;
         let lanes = simulation.lanes.len();
         let mut run = Trajectory::new(plan.clone(), times.to_vec());
         for (group, spec) in plan.groups().iter().enumerate() {
@@ -393,6 +419,15 @@ impl Pace {
         Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
     }
 
+    /// How finely a pass looks at contacts, `times` as coarse as the finest of a round.
+    fn grain(&self, times: f64) -> Grain {
+        let step = match &self.control {
+            Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(1.0),
+            Control::Step(_) | Control::Mesh(_) => 1.0,
+        };
+        Grain { eps: times, step: 0.25 * times * step }
+    }
+
     /// What should meet the tolerance, where this pace left an estimate.
     fn finer(&self, method: Method, tolerance: f64, estimate: f64) -> Self {
         let wanted = if estimate.is_finite() { SAFETY * tolerance / estimate } else { 0.0 };
@@ -433,6 +468,15 @@ impl Pace {
     }
 }
 
+/// By how much less a run with impacts is wrong than one that is twice as coarse [-]: both lie within their ε,
+/// so twice their difference is taken.
+const EVENT_GAIN: f64 = 1.5;
+/// Rounds in which the impacts of the passes differ, after which they are said to [-]: shorter steps help where
+/// these made the difference, not where ε did.
+const MISMATCHES: u32 = 1;
+/// Error of a flight's step up to which contact steps keep their length [-], and their order.
+const CONTACT_LOCAL: f64 = 1.0e-8;
+const CONTACT_ORDER: f64 = 4.0;
 /// Rounds of three passes to a tolerance [-]: the first guess and its halving find the order's regime, the
 /// rest comes down to rounding from an estimate at most 2⁻⁵ a round.
 const ROUNDS: u32 = 24;

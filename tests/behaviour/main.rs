@@ -9,6 +9,7 @@ mod collision;
 mod effects;
 mod files;
 mod freedoms;
+mod impacts;
 mod layers;
 mod order;
 mod promises;
