@@ -134,9 +134,14 @@ impl<P: Problem> Integration<P> {
 }
 
 impl<P: Problem> Integration<P> {
-    /// Why a step failed: what a user's function complained about, before what came of it.
-    fn failure(&mut self, error: FlightError) -> FlightError {
-        self.problem.take_failure().map_or(error, FlightError::UserEffect)
+    /// A step, and more while the front is before `to` [s]. Why one failed is what a user's function
+    /// complained about, before what came of it.
+    fn take_steps(&mut self, to: f64, limit: f64) -> Result<(), FlightError> {
+        let Self { problem, integrator, front, start, counts, stale, .. } = self;
+        *stale = true;
+        let taken = integrator.advance(problem, front, (to, limit), counts);
+        *start = integrator.last_start();
+        taken.map_err(|error| problem.take_failure().map_or(error, FlightError::UserEffect))
     }
 }
 
@@ -146,25 +151,11 @@ impl<P: Problem> Flight for Integration<P> {
     }
 
     fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
-        let Self { problem, integrator, front, start, counts, .. } = self;
-        *start = front.time;
-        self.stale = true;
-        match integrator.advance(problem, front, limit, counts) {
-            Ok(()) if front.y.is_finite() => Ok(()),
-            Ok(()) => Err(self.failure(FlightError::NotFinite)),
-            Err(error) => Err(self.failure(error)),
-        }
+        self.take_steps(f64::NEG_INFINITY, limit)
     }
 
     fn advance_past(&mut self, to: f64, limit: f64) -> Result<(), FlightError> {
-        let Self { problem, integrator, front, start, counts, stale, .. } = self;
-        if front.time.value >= to {
-            return Ok(());
-        }
-        *stale = true;
-        let taken = integrator.advance_past(problem, front, (to, limit), counts);
-        *start = integrator.last_start();
-        taken.map_err(|error| self.failure(error))
+        if self.front() < to { self.take_steps(to, limit) } else { Ok(()) }
     }
 
     fn interpolate(&mut self) -> Result<(), FlightError> {

@@ -153,6 +153,9 @@ pub trait Problem: Debug + Send {
     /// The same of methods in body axes.
     const BODY_AXES: bool = true;
 
+    /// Whether only methods of [short steps](Method::has_short_steps) are used on it.
+    const SHORT_STEPS: bool = false;
+
     /// How many numbers they are.
     fn dimension(&self) -> usize;
 
@@ -271,23 +274,11 @@ impl<Y> Front<Y> {
 
 /// Advances a problem, a step at a call.
 pub trait Integrator<P: Problem>: Debug + Send {
-    /// Takes one step, which ends at `limit` or before it.
+    /// Takes a step, and more while the front is before `to` [s]; none passes `limit` [s].
     ///
     /// # Errors
-    /// No step is short enough for the error allowed.
+    /// No step is short enough for the error allowed, or the state is not finite any more.
     fn advance(
-        &mut self,
-        problem: &mut P,
-        front: &mut Front<P::Y>,
-        limit: f64,
-        counts: &mut Counts,
-    ) -> Result<(), FlightError>;
-
-    /// Takes steps until the front is at `span.0` or behind it, none of which passes `span.1`.
-    ///
-    /// # Errors
-    /// As [`advance`](Self::advance), and a state that is not finite any more.
-    fn advance_past(
         &mut self,
         problem: &mut P,
         front: &mut Front<P::Y>,
@@ -360,6 +351,15 @@ macro_rules! methods {
                 }
             }
 
+            /// Whether its steps are so short that a call shows in them: at most four evaluations of f, at
+            /// lengths that are given.
+            pub fn has_short_steps(self) -> bool {
+                match self {
+                    $(Self::$variant => $module::EVALUATIONS <= 4 && $module::ERROR_ORDER == 0.0,)*
+                    Self::Exact => false,
+                }
+            }
+
             /// Whether it estimates the error of a step, so that [`Control::Error`] can choose the length,
             /// or makes none.
             pub fn controls_error(self) -> bool {
@@ -369,8 +369,8 @@ macro_rules! methods {
                 }
             }
 
-            /// The method on a problem; none for the closed form, and none for methods in axes that the
-            /// problem is not written in.
+            /// The method on a problem; none for the closed form, and none for methods that the problem is
+            /// not written for.
             pub fn integrator<P: Problem + 'static>(
                 self,
                 problem: &P,
@@ -379,7 +379,10 @@ macro_rules! methods {
             ) -> Option<Box<dyn Integrator<P>>> {
                 let n = problem.dimension();
                 match self {
-                    $(Self::$variant if $module::BODY_AXES && P::BODY_AXES || !$module::BODY_AXES && P::WORLD_AXES => {
+                    $(Self::$variant
+                        if (if $module::BODY_AXES { P::BODY_AXES } else { P::WORLD_AXES })
+                            && (!P::SHORT_STEPS || $module::EVALUATIONS <= 4 && $module::ERROR_ORDER == 0.0) =>
+                    {
                         Some(Box::new(stepper::Stepper::<P, $module::Kernel<P::Y>>::new(n, control, projection)))
                     })*
                     _ => None,
@@ -466,6 +469,9 @@ trait Kernel<Y: StateVector>: Debug + Send {
 
     /// The power of h with which the estimate of a step's error falls; 0 where there is none.
     const ERROR_ORDER: f64 = 0.0;
+
+    /// Whether there is such an estimate; of a method without one, no code to follow it is compiled.
+    const ESTIMATES_ERROR: bool = Self::ERROR_ORDER > 0.0;
 
     /// Whether a step needs the slope at its start; else `k0` is not worked out for it.
     const NEEDS_SLOPE: bool = true;

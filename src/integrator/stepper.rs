@@ -147,6 +147,39 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         if steepest > 0.0 { libm::pow(0.01 / steepest, 1.0 / K::ERROR_ORDER).min(100.0 * h0) } else { left }
     }
 
+    /// Takes a step that was begun, which ends at `limit` or before it.
+    #[inline(always)]
+    fn take_step(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        limit: f64,
+        counts: &mut Counts,
+    ) -> Result<(), FlightError> {
+        let left = front.time.until(limit);
+        let step = match &self.control {
+            Control::Step(step) => *step,
+            Control::Mesh(mesh) => front.time.until(mesh.end_after(front.time.value)),
+            Control::Error(limits) => {
+                let limits = *limits;
+                if K::ESTIMATES_ERROR {
+                    return self.advance_controlled(problem, front, limit, &limits, counts);
+                }
+                limits.longest
+            }
+        };
+
+        // cut or stretched by a hair so that it ends on the limit
+        let last = left <= step * (1.0 + STEP_REMAINDER);
+        let h = if last { left } else { step };
+        let time = if last { Time::new(limit) } else { front.time + h };
+        self.attempt(problem, front, h);
+        self.count(counts);
+        self.accept(problem, front, time, counts);
+        Ok(())
+    }
+
+    /// The same where the error decides the length.
     fn advance_controlled(
         &mut self,
         problem: &mut P,
@@ -226,45 +259,20 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
         &mut self,
         problem: &mut P,
         front: &mut Front<P::Y>,
-        limit: f64,
-        counts: &mut Counts,
-    ) -> Result<(), FlightError> {
-        self.begin(problem, front, counts);
-        let left = front.time.until(limit);
-        let step = match &self.control {
-            Control::Step(step) => *step,
-            Control::Mesh(mesh) => front.time.until(mesh.end_after(front.time.value)),
-            Control::Error(limits) => {
-                let limits = *limits;
-                return self.advance_controlled(problem, front, limit, &limits, counts);
-            }
-        };
-
-        // cut or stretched by a hair so that it ends on the limit
-        let last = left <= step * (1.0 + STEP_REMAINDER);
-        let h = if last { left } else { step };
-        let time = if last { Time::new(limit) } else { front.time + h };
-        self.attempt(problem, front, h);
-        self.count(counts);
-        self.accept(problem, front, time, counts);
-        Ok(())
-    }
-
-    fn advance_past(
-        &mut self,
-        problem: &mut P,
-        front: &mut Front<P::Y>,
         (to, limit): (f64, f64),
         counts: &mut Counts,
     ) -> Result<(), FlightError> {
-        while front.time.value < to {
+        loop {
             self.began = front.time;
-            self.advance(problem, front, limit, counts)?;
+            self.begin(problem, front, counts);
+            self.take_step(problem, front, limit, counts)?;
             if !front.y.is_finite() {
                 return Err(FlightError::NotFinite);
             }
+            if front.time.value >= to {
+                return Ok(());
+            }
         }
-        Ok(())
     }
 
     fn last_start(&self) -> Time {

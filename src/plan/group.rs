@@ -27,13 +27,27 @@ pub trait Kind: Debug + Send + 'static {
 
     /// The rates where nothing acts.
     #[inline(always)]
-    fn rate_unloaded(charts: &[Chart], y: &[f64], dy: &mut [f64]) {
-        let mut at = 0;
+    fn rate_unloaded(charts: &[Chart], y: &Self::Y, dy: &mut Self::Y) {
+        let (y, dy, mut at) = (y.as_ref(), dy.as_mut(), 0);
         for chart in Self::narrow(charts) {
             let n = chart.dimension();
             chart.rate_unloaded(&y[at..at + n], &mut dy[at..at + n]);
             at += n;
         }
+    }
+
+    /// Amends a change so that it ends with orientations on their sphere; returns how far the worst had
+    /// strayed [-].
+    #[inline(always)]
+    fn project(charts: &[Chart], y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64 {
+        let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
+        let (mut at, mut worst) = (0, 0.0_f64);
+        for chart in Self::narrow(charts) {
+            let part = at..at + chart.dimension();
+            worst = worst.max(chart.project(&y[part.clone()], &rest[part.clone()], &mut dy[part.clone()]));
+            at = part.end;
+        }
+        worst
     }
 }
 
@@ -79,7 +93,7 @@ macro_rules! single {
         /// a step of its own.
         pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
             match bodies.charts.as_slice() {
-                $([$pattern] if $($known &&)? (bodies.bindings.is_empty() || !$unloaded) => fly::<$kind>(bodies, method, course, t, y),)*
+                $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
                 _ => fly::<Any>(bodies, method, course, t, y),
             }
         }
@@ -87,9 +101,9 @@ macro_rules! single {
 }
 
 single! {
-    /// A free body on which nothing acts, with q and L in body axes.
+    /// A free body on which nothing acts, with q and L in body axes, in short steps.
     UnloadedBodyAxes: [13, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
-    /// A free body on which nothing acts, with q and L in world axes.
+    /// A free body on which nothing acts, with q and L in world axes, in short steps.
     UnloadedWorldAxes: [13, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A free body with q and L in body axes.
     FreeBodyAxes: [13, false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
@@ -173,7 +187,14 @@ impl<K: Kind> Group<K> {
         bodies.map(|((chart, motion), load)| chart.reaction(motion, load)).collect()
     }
 
-    /// `dy = f(t, y)` where something acts; apart, so that the steps of free bodies stay short.
+    /// [`Problem::project`] where something may act; apart, as are the rates: such a step is long anyway, and is
+    /// compiled for every method.
+    #[inline(never)]
+    fn project_apart(&self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
+        K::project(&self.charts, y, rest, dy)
+    }
+
+    /// `dy = f(t, y)` where something acts.
     #[inline(never)]
     fn rate_loaded(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
         Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
@@ -215,6 +236,7 @@ impl<K: Kind> Problem for Group<K> {
     type Y = K::Y;
     const WORLD_AXES: bool = K::WORLD_AXES;
     const BODY_AXES: bool = K::BODY_AXES;
+    const SHORT_STEPS: bool = K::UNLOADED;
 
     fn dimension(&self) -> usize {
         self.charts.iter().map(Chart::dimension).sum()
@@ -226,12 +248,16 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn rate(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
-        if K::UNLOADED || self.bindings.is_empty() { self.drift(y, dy) } else { self.rate_loaded(at, y, dy) }
+        match (K::UNLOADED, self.bindings.is_empty()) {
+            (true, _) => K::rate_unloaded(&self.charts, y, dy),
+            (false, true) => self.drift(y, dy),
+            (false, false) => self.rate_loaded(at, y, dy),
+        }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn drift(&mut self, y: &K::Y, dy: &mut K::Y) {
-        K::rate_unloaded(&self.charts, y.as_ref(), dy.as_mut());
+        K::rate_unloaded(&self.charts, y, dy);
     }
 
     fn is_loaded(&self) -> bool {
@@ -293,14 +319,7 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn project(&mut self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
-        let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
-        let (mut at, mut worst) = (0, 0.0_f64);
-        for chart in K::narrow(&self.charts) {
-            let part = at..at + chart.dimension();
-            worst = worst.max(chart.project(&y[part.clone()], &rest[part.clone()], &mut dy[part.clone()]));
-            at = part.end;
-        }
-        worst
+        if K::UNLOADED { K::project(&self.charts, y, rest, dy) } else { self.project_apart(y, rest, dy) }
     }
 
     fn orientation_error(&self, y: &K::Y) -> f64 {
