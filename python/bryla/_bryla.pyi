@@ -42,6 +42,7 @@ _Frame: TypeAlias = Literal["world", "body"]
 _Record: TypeAlias = Literal["dense", "samples", "end"]
 _Orientation: TypeAlias = Literal["quaternion", "matrix"]
 _Finder: TypeAlias = Literal["bisection", "secant", "guaranteed"]
+_RestitutionLaw: TypeAlias = Literal["newton", "poisson", "stronge"]
 _Format: TypeAlias = Literal["toml", "json"]
 _Collidable: TypeAlias = _Shape | ConvexPolyhedron | Collider
 _Accuracy: TypeAlias = Literal["exact", "yes_no"] | float
@@ -1135,6 +1136,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        restitution_law: _RestitutionLaw | None = None,
     ) -> Plan:
         """Checks the scene and keeps what it calls for: a Plan. The options are those of `run`."""
 
@@ -1156,6 +1158,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        restitution_law: _RestitutionLaw | None = None,
         progress: bool = False,
     ) -> Trajectory:
         """Runs the scene over a span, and returns its Trajectory.
@@ -1192,6 +1195,9 @@ class Scene:
             How the time of contact is found; "guaranteed" by default.
         eps : float, optional
             Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
+        restitution_law : {"newton", "poisson", "stronge"}, optional
+            What comes back where friction couples normal and tangent: the normal velocity (default), the
+            impulse of compression, or its work.
         progress : bool
             Whether a progress line is shown on a terminal.
 
@@ -1220,6 +1226,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        restitution_law: _RestitutionLaw | None = None,
         progress: bool = False,
     ) -> ComparisonTable:
         """What accuracy costs: error against time for several methods and steps, a ComparisonTable.
@@ -1236,7 +1243,7 @@ class Scene:
             Lengths of a step [s]; ten halvings from a first guess by default.
         repeats : int
             How often each run is timed; the least and the middle time are kept.
-        length_scale, orientation, projection, finder, eps
+        length_scale, orientation, projection, finder, eps, restitution_law
             As in run.
         progress : bool
             Whether a progress line is shown on a terminal.
@@ -1490,7 +1497,7 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What: "bounce" or "stick"."""
+        """What: "bounce", "stick", "contact" (they stay in contact and move) or "rest"."""
 
     @property
     def bodies(self) -> tuple[str, str]:
@@ -1510,7 +1517,7 @@ class Event:
 
     @property
     def features(self) -> str:
-        """What of the second body touched, in words."""
+        """Which features of the two bodies touched, in words."""
 
     @property
     def iterations(self) -> int:

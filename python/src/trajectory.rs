@@ -476,7 +476,7 @@ impl PyEvent {
         self.event.time
     }
 
-    /// What: "bounce" or "stick".
+    /// What: "bounce", "stick", "contact" (they stay in contact and move) or "rest".
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.name()
