@@ -218,7 +218,9 @@ impl Simulation {
         }
         let mut contacts = cluster.contacts.clone();
         if approaches.iter().all(|&u| u <= pace.rest) {
-            contacts.iter_mut().for_each(|contact| contact.restitution = 0.0);
+            for contact in &mut contacts {
+                contact.restitution = 0.0;
+            }
         }
         let bodies = self.cluster_bodies(cluster, &cluster.motions);
         let collision =

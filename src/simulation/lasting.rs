@@ -360,10 +360,10 @@ impl Simulation {
             if kind == Kind::Implicit {
                 break;
             }
-            match self.slow_slip(cluster, part, pace, &step) {
-                Some(Some(suits)) => h = suits.min(h),
-                Some(None) => kind = Kind::Implicit,
-                None => break,
+            match self.slips(cluster, part, pace, &step) {
+                Slips::Fast => break,
+                Slips::Dying(suits) => h = suits.min(h),
+                Slips::Beginning => kind = Kind::Implicit,
             }
             step = self.try_step(cluster, part, &led, &gaps, pace, time, h, kind)?;
         }
@@ -554,9 +554,8 @@ impl Simulation {
         Ok((motions, heat))
     }
 
-    /// Whether a slip is slower than what friction changes in a step, so that its direction is stiff: a step
-    /// that suits it [s], and none where it is about to begin.
-    fn slow_slip(&self, cluster: &Cluster, part: &Part, pace: &Pace, step: &Step) -> Option<Option<f64>> {
+    /// How the slips of a step compare with what friction changes in it.
+    fn slips(&self, cluster: &Cluster, part: &Part, pace: &Pace, step: &Step) -> Slips {
         let bodies = self.cluster_bodies(cluster, &step.motions);
         let (mut shortest, mut begins) = (f64::INFINITY, false);
         for (&i, way) in part.contacts.iter().zip(&part.slides) {
@@ -575,7 +574,13 @@ impl Simulation {
                 begins = true;
             }
         }
-        if begins { Some(None) } else { shortest.is_finite().then_some(Some(shortest)) }
+        if begins {
+            Slips::Beginning
+        } else if shortest.is_finite() {
+            Slips::Dying(shortest)
+        } else {
+            Slips::Fast
+        }
     }
 
     /// What the contacts do at these motions, and the rates of the numbers.
@@ -724,6 +729,17 @@ enum Kind {
     /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end:
     /// first order, but where the slip is slow its direction is stiff.
     Implicit,
+}
+
+/// How fast the contacts of a part slide, by what friction changes in a step: a direction that it can turn
+/// round is stiff.
+enum Slips {
+    /// Faster, or about to stop.
+    Fast,
+    /// Slower, and ever more so; in a step of this length [s] it is not.
+    Dying(f64),
+    /// Slower, and about to be faster.
+    Beginning,
 }
 
 /// A body that is led, in the numbers of its flight.

@@ -422,7 +422,7 @@ impl Pace {
     /// How finely a pass looks at contacts, `times` as coarse as the finest of a round.
     fn grain(&self, times: f64) -> Grain {
         let step = match &self.control {
-            Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(1.0),
+            Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(2.0),
             Control::Step(_) | Control::Mesh(_) => 1.0,
         };
         Grain { eps: times, step: 0.25 * times * step }
