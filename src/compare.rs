@@ -1,4 +1,4 @@
-//! What accuracy costs: one scene, several methods and steps, error against time.
+//! What accuracy costs: one scene, several methods, steps and tolerances, error against time.
 //!
 //! Error and time come from the same run. The error is that of the end state, against a closed form
 //! where the scene has one, else against a much finer run whose own error is estimated and stated.
@@ -22,8 +22,11 @@ use crate::trajectory::Trajectory;
 pub struct CompareOptions {
     /// Methods of integration; all that the scene allows if empty.
     pub methods: Vec<Method>,
-    /// Lengths of a step [s]; halvings from a first guess if empty.
+    /// Lengths of a step [s]; halvings from a first guess if neither steps nor tolerances are given.
     pub steps: Vec<f64>,
+    /// Errors that the result may have [-], for the methods that choose their steps by them; the error is not
+    /// estimated in these runs, which costs extra.
+    pub tolerances: Vec<f64>,
     /// How often each run is timed [-]; the least and the middle time are reported.
     pub repeats: u32,
     /// Everything else.
@@ -32,7 +35,8 @@ pub struct CompareOptions {
 
 impl Default for CompareOptions {
     fn default() -> Self {
-        Self { methods: Vec::new(), steps: Vec::new(), repeats: 5, run: RunOptions::default() }
+        let (methods, steps, tolerances) = Default::default();
+        Self { methods, steps, tolerances, repeats: 5, run: RunOptions::default() }
     }
 }
 
@@ -42,8 +46,10 @@ impl Default for CompareOptions {
 pub struct Row {
     /// Method of integration.
     pub method: Method,
-    /// Length of a step [s]; of the closed form, the whole span.
+    /// Length of a step [s]; of the closed form, the whole span; under a tolerance, the mean of the run.
     pub step: f64,
+    /// Error that the result was allowed [-]; none where the step was given.
+    pub tolerance: Option<f64>,
     /// Error of the end state [-]: the larger of position error over the length scale and orientation
     /// error in radians, over all bodies. None where the run broke off.
     pub error: Option<f64>,
@@ -92,15 +98,29 @@ impl Scene {
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
         let base =
             RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
-        let steps = if options.steps.is_empty() { self.halvings(span, &base)? } else { options.steps.clone() };
-        let reference = Reference::new(self, span, &steps, &base, observer)?;
+        let halvings = options.steps.is_empty() && options.tolerances.is_empty();
+        let steps = if halvings { self.halvings(span, &base)? } else { options.steps.clone() };
+        let shortest = steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let shortest = if shortest.is_finite() { shortest } else { self.halvings(span, &base)?[0] };
+        let reference = Reference::new(self, span, shortest, &base, observer)?;
+
+        if let Some(method) = options.methods.iter().find(|m| steps.is_empty() && !m.controls_error()) {
+            let choosers: Vec<_> = Method::ALL.iter().filter(|m| m.controls_error()).map(|m| m.name()).collect();
+            let allowed = format!("steps for {method}, which does not choose them, or only {}", choosers.join(", "));
+            return Err(Error::value("compare", "tolerances", allowed, &options.tolerances).into());
+        }
 
         let mut rows = Vec::new();
         for &method in methods {
             // the closed form takes no steps, and not every scene has one
-            let steps = if method == Method::Exact { vec![None] } else { steps.iter().copied().map(Some).collect() };
-            for step in steps {
-                let plan = match self.compile(&RunOptions { method: Some(method), step, ..base.clone() }) {
+            let by_step = steps.iter().map(|&step| (Some(step), None));
+            let tolerances = if method.controls_error() { options.tolerances.as_slice() } else { &[] };
+            let by_tolerance = tolerances.iter().map(|&tolerance| (None, Some(tolerance)));
+            let paces =
+                if method == Method::Exact { vec![(None, None)] } else { by_step.chain(by_tolerance).collect() };
+            for (step, tolerance) in paces {
+                let run = RunOptions { method: Some(method), step, tolerance, ..base.clone() };
+                let plan = match self.compile(&run) {
                     Err(_) if options.methods.is_empty() => break,
                     plan => plan?,
                 };
@@ -140,13 +160,13 @@ impl Reference {
     fn new(
         scene: &Scene,
         span: Span,
-        steps: &[f64],
+        shortest: f64,
         base: &RunOptions,
         observer: Observer<'_>,
     ) -> Result<Self, RunError> {
         match scene.compile(&RunOptions { method: Some(Method::Exact), ..base.clone() }) {
             Ok(plan) => Ok(Self::read(&plan.run_observed(span, observer)?, "the closed form".to_owned(), 0.0)),
-            Err(_) => Self::finest(scene, span, steps, base, observer),
+            Err(_) => Self::finest(scene, span, shortest, base, observer),
         }
     }
 
@@ -156,16 +176,16 @@ impl Reference {
     }
 
     /// A run of order 8 with the step that leaves the smallest error; its error by Richardson's rule
-    /// from the run before.
+    /// from the run before, and not below the rounding of its numbers.
     fn finest(
         scene: &Scene,
         span: Span,
-        steps: &[f64],
+        shortest: f64,
         base: &RunOptions,
         observer: Observer<'_>,
     ) -> Result<Self, RunError> {
         let method = Method::Dop853;
-        let mut step = REFERENCE_STEP * steps.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut step = REFERENCE_STEP * shortest;
         let divisor = libm::pow(2.0, f64::from(method.order())) - 1.0;
         let mut fine = |step: f64| -> Result<Self, RunError> {
             let plan = scene.compile(&RunOptions { method: Some(method), step: Some(step), ..base.clone() })?;
@@ -175,12 +195,12 @@ impl Reference {
         let mut best = fine(2.0 * step)?;
         for _ in 0..REFERENCE_HALVINGS {
             let mut run = fine(step)?;
-            run.error = difference(&run.states, &best.states, run.length_scale) / divisor;
+            run.error = (difference(&run.states, &best.states, run.length_scale) / divisor).max(f64::EPSILON);
             let better = run.error < best.error;
             if better {
                 best = run;
             }
-            if !better || best.error < f64::EPSILON || (span.end - span.start) / step > 0.5 * REFERENCE_STEPS {
+            if !better || best.error <= f64::EPSILON || (span.end - span.start) / step > 0.5 * REFERENCE_STEPS {
                 break;
             }
             step *= 0.5;
@@ -217,7 +237,8 @@ fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32, observer: O
     };
     Ok(Row {
         method: plan.method(),
-        step: plan.options().step.unwrap_or(span.end - span.start),
+        step: plan.options().step.unwrap_or((span.end - span.start) / counts.steps.max(1) as f64),
+        tolerance: plan.options().tolerance,
         error: error.filter(|e| e.is_finite()),
         evaluations: counts.evaluations,
         steps: counts.steps,
@@ -229,11 +250,14 @@ fn row(plan: &Plan, span: Span, reference: &Reference, repeats: u32, observer: O
 impl ComparisonTable {
     /// The table as comma-separated values; a run that broke off has no error.
     pub fn to_csv(&self) -> String {
-        let mut text = "method,step_s,error,evaluations,steps,seconds_min,seconds_median\n".to_owned();
+        let mut text = "method,step_s,tolerance,error,evaluations,steps,seconds_min,seconds_median\n".to_owned();
         for row in &self.rows {
             let error = row.error.map(|e| format!("{e:e}")).unwrap_or_default();
+            let tolerance = row.tolerance.map(|e| format!("{e:e}")).unwrap_or_default();
             let Row { method, step, evaluations, steps, seconds_min, seconds_median, .. } = row;
-            text += &format!("{method},{step:e},{error},{evaluations},{steps},{seconds_min:e},{seconds_median:e}\n");
+            text += &format!(
+                "{method},{step:e},{tolerance},{error},{evaluations},{steps},{seconds_min:e},{seconds_median:e}\n"
+            );
         }
         text
     }
@@ -244,8 +268,8 @@ impl fmt::Display for ComparisonTable {
         writeln!(f, "Error of the end state against {}", self.reference)?;
         writeln!(
             f,
-            "{:<20} {:>10} {:>11} {:>12} {:>10} {:>10}",
-            "method", "step [s]", "error", "evaluations", "time [s]", "order"
+            "{:<20} {:>10} {:>10} {:>11} {:>12} {:>10} {:>10}",
+            "method", "step [s]", "tolerance", "error", "evaluations", "time [s]", "order"
         )?;
         let mut before: Option<&Row> = None;
         for row in &self.rows {
@@ -255,16 +279,17 @@ impl fmt::Display for ComparisonTable {
                 Some(e) => short(e),
             };
             // the order that the error shows, from the row before
-            let order = before.filter(|b| b.method == row.method).and_then(|b| {
+            let order = before.filter(|b| b.method == row.method && row.tolerance.is_none()).and_then(|b| {
                 let (e0, e1) = (b.error?, row.error?);
                 let told = e1 > 10.0 * self.reference_error && e0 > e1 && b.step > row.step;
                 told.then(|| format!("{:.2}", libm::log(e0 / e1) / libm::log(b.step / row.step)))
             });
             writeln!(
                 f,
-                "{:<20} {:>10} {error:>11} {:>12} {:>10} {:>10}",
+                "{:<20} {:>10} {:>10} {error:>11} {:>12} {:>10} {:>10}",
                 row.method.name(),
                 short(row.step),
+                row.tolerance.map(short).unwrap_or_default(),
                 row.evaluations,
                 short(row.seconds_min),
                 order.unwrap_or_default(),

@@ -1220,6 +1220,7 @@ class Scene:
         *,
         methods: Iterable[_Method] | None = None,
         steps: _Numbers | None = None,
+        tolerances: _Numbers | None = None,
         repeats: int = 5,
         length_scale: _Number | None = None,
         orientation: _Orientation | None = None,
@@ -1229,7 +1230,7 @@ class Scene:
         restitution_law: _RestitutionLaw | None = None,
         progress: bool = False,
     ) -> ComparisonTable:
-        """What accuracy costs: error against time for several methods and steps, a ComparisonTable.
+        """What accuracy costs: error against time for several methods, steps and tolerances, a ComparisonTable.
 
         Error and time come from the same run. The error is that of the end state.
 
@@ -1240,7 +1241,10 @@ class Scene:
         methods : list of str, optional
             Methods of integration; all by default.
         steps : list of float, optional
-            Lengths of a step [s]; ten halvings from a first guess by default.
+            Lengths of a step [s]; ten halvings from a first guess if neither steps nor tolerances are given.
+        tolerances : list of float, optional
+            Errors that the result may have [-], for the methods that choose their steps by them; the error is
+            not estimated in these runs, which costs extra.
         repeats : int
             How often each run is timed; the least and the middle time are kept.
         length_scale, orientation, projection, finder, eps, restitution_law
@@ -1691,7 +1695,11 @@ class Row:
 
     @property
     def step(self) -> float:
-        """Length of a step [s]."""
+        """Length of a step [s]; of the closed form, the whole span; under a tolerance, the mean of the run."""
+
+    @property
+    def tolerance(self) -> float | None:
+        """Error that the result was allowed [-]; None where the step was given."""
 
     @property
     def error(self) -> float | None:

@@ -87,15 +87,16 @@ def cut_at_jumps(phi: Any) -> Any:
 
 
 def comparison(table: ComparisonTable, figure: Figure | None) -> Any:
-    """Draws error against processor time, both logarithmic, one line a method.
+    """Draws error against processor time, both logarithmic, one line a method, dashed where tolerances chose the steps.
 
     The grey band is where errors are not told apart from that of the reference.
     """
     figure = new_figure(figure, 8.0, 5.0)
     axes = figure.subplots()
-    for method in dict.fromkeys(row.method for row in table.rows):
-        rows = [row for row in table.rows if row.method == method and row.error]
-        axes.loglog([row.error for row in rows], [row.seconds_min for row in rows], "o-", markersize=4, label=method)
+    for method, chosen in dict.fromkeys((row.method, row.tolerance is not None) for row in table.rows):
+        rows = [row for row in table.rows if (row.method, row.tolerance is not None) == (method, chosen) and row.error]
+        style, label = ("s--", f"{method}, by tolerance") if chosen else ("o-", method)
+        axes.loglog([row.error for row in rows], [row.seconds_min for row in rows], style, markersize=4, label=label)
     axes.axvspan(axes.get_xlim()[0], 10.0 * table.reference_error, color="0.9", zorder=0)
     axes.invert_xaxis()
     axes.set_xlabel("error of the end state")

@@ -20,10 +20,16 @@ impl PyRow {
         self.0.method.name()
     }
 
-    /// Length of a step [s].
+    /// Length of a step [s]; of the closed form, the whole span; under a tolerance, the mean of the run.
     #[getter]
     fn step(&self) -> f64 {
         self.0.step
+    }
+
+    /// Error that the result was allowed [-]; None where the step was given.
+    #[getter]
+    fn tolerance(&self) -> Option<f64> {
+        self.0.tolerance
     }
 
     /// Error of the end state [-]: the larger of position error over the length scale and orientation

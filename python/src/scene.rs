@@ -170,7 +170,7 @@ impl PyScene {
         run_watched(py, progress, |observer| self.0.run_observed(span, &options, observer))
     }
 
-    /// What accuracy costs: error against time for several methods and steps, a ComparisonTable.
+    /// What accuracy costs: error against time for several methods, steps and tolerances, a ComparisonTable.
     ///
     /// Error and time come from the same run. The error is that of the end state.
     ///
@@ -181,7 +181,10 @@ impl PyScene {
     /// methods : list of str, optional
     ///     Methods of integration; all by default.
     /// steps : list of float, optional
-    ///     Lengths of a step [s]; ten halvings from a first guess by default.
+    ///     Lengths of a step [s]; ten halvings from a first guess if neither steps nor tolerances are given.
+    /// tolerances : list of float, optional
+    ///     Errors that the result may have [-], for the methods that choose their steps by them; the error is
+    ///     not estimated in these runs, which costs extra.
     /// repeats : int
     ///     How often each run is timed; the least and the middle time are kept.
     /// length_scale, orientation, projection, finder, eps, restitution_law
@@ -189,8 +192,13 @@ impl PyScene {
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     #[pyo3(
+<<<<<<< HEAD
         signature = (t_span=None, *, methods=None, steps=None, repeats=5, progress=false, **options),
         text_signature = "($self, t_span=None, *, methods=None, steps=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
+=======
+        signature = (t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, progress=false, **options),
+        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, progress=False)"
+>>>>>>> main
     )]
     #[expect(clippy::too_many_arguments, reason = "those of the core, and two of Python")]
     fn compare(
@@ -199,6 +207,7 @@ impl PyScene {
         t_span: Option<(f64, f64)>,
         methods: Option<List<String>>,
         steps: Option<List<f64>>,
+        tolerances: Option<List<f64>>,
         repeats: u32,
         progress: bool,
         options: Option<&Bound<'_, PyDict>>,
@@ -214,6 +223,7 @@ impl PyScene {
         let options = CompareOptions {
             methods: methods.iter().map(|name| method_named(name)).collect::<Result<_>>()?,
             steps: steps.map_or_else(Vec::new, |steps| steps.0),
+            tolerances: tolerances.map_or_else(Vec::new, |tolerances| tolerances.0),
             repeats,
             run: RunOptions { method: None, step: None, ..run },
         };

@@ -74,9 +74,12 @@ enum Verb {
         /// Methods to compare, by commas [default: all]
         #[arg(long, value_delimiter = ',')]
         methods: Vec<Method>,
-        /// Steps to compare [s], by commas [default: ten halvings]
+        /// Steps to compare [s], by commas [default: ten halvings, where there are no tolerances]
         #[arg(long, value_delimiter = ',')]
         steps: Vec<f64>,
+        /// Tolerances to compare, by commas, for the methods that control their error
+        #[arg(long, value_delimiter = ',')]
+        tolerances: Vec<f64>,
         /// How often each run is timed
         #[arg(long, default_value_t = 5)]
         repeats: u32,
@@ -152,8 +155,9 @@ pub fn main(args: impl IntoIterator<Item = OsString>) -> i32 {
     let code = match command.verb {
         Verb::Run { scene, options, out, quiet } => run(&scene, &options, out, quiet),
         Verb::Explain { scene, options } => explain(&scene, &options),
-        Verb::Compare { scene, methods, steps, repeats, span, out } => {
-            compare(&scene, CompareOptions { methods, steps, repeats, run: RunOptions::default() }, span.as_ref(), &out)
+        Verb::Compare { scene, methods, steps, tolerances, repeats, span, out } => {
+            let options = CompareOptions { methods, steps, tolerances, repeats, run: RunOptions::default() };
+            compare(&scene, options, span.as_ref(), &out)
         }
         Verb::Check { scenes } => Ok(check(&scenes)),
         Verb::Schema => {

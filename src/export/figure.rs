@@ -33,19 +33,21 @@ impl ComparisonTable {
     }
 
     fn draw(&self, text: &mut String, title: &str) -> std::result::Result<(), String> {
-        let points = |method: Method| -> Vec<(f64, f64)> {
-            let rows = self.rows.iter().filter(|row| row.method == method);
+        // a line for the steps of a method, and one for its tolerances
+        let points = |&(method, by_tolerance): &(Method, bool)| -> Vec<(f64, f64)> {
+            let rows = self.rows.iter().filter(|row| row.method == method && row.tolerance.is_some() == by_tolerance);
             rows.filter_map(|row| Some((row.error.filter(|e| *e > 0.0)?, row.seconds_min)))
                 .filter(|p| p.1 > 0.0)
                 .collect()
         };
-        let mut methods: Vec<Method> = Vec::new();
+        let mut lines: Vec<(Method, bool)> = Vec::new();
         for row in &self.rows {
-            if !methods.contains(&row.method) {
-                methods.push(row.method);
+            let line = (row.method, row.tolerance.is_some());
+            if !lines.contains(&line) {
+                lines.push(line);
             }
         }
-        let all: Vec<_> = methods.iter().flat_map(|&method| points(method)).collect();
+        let all: Vec<_> = lines.iter().flat_map(points).collect();
         if all.is_empty() {
             return Err("no run of the comparison has an error to show".to_owned());
         }
@@ -74,9 +76,14 @@ impl ComparisonTable {
             .light_line_style(WHITE)
             .draw()
             .map_err(|e| failed(&e))?;
-        for (&method, &colour) in methods.iter().zip(COLOURS.iter().cycle()) {
-            let line = points(method);
-            let name = format!("{method}, order {}", method.order());
+        for (line, &colour) in lines.iter().zip(COLOURS.iter().cycle()) {
+            let (method, by_tolerance) = *line;
+            let line = points(line);
+            let name = if by_tolerance {
+                format!("{method}, by tolerance")
+            } else {
+                format!("{method}, order {}", method.order())
+            };
             chart
                 .draw_series(LineSeries::new(line.iter().copied(), colour.stroke_width(2)))
                 .map_err(|e| failed(&e))?

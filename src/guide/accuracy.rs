@@ -237,7 +237,7 @@
 //! # Comparing
 //!
 //! [`Scene::compare`](crate::scene::Scene::compare) (on the command line `bryla compare`) runs every method with
-//! every step and lists
+//! every step, those that control their error also with every tolerance (`tolerances`), and lists
 //!
 //! - the error of the **end state**, in the measure above, against the method of highest order with a
 //!   step a quarter of the shortest compared, halved further as long as its own estimated error falls.

@@ -35,6 +35,9 @@ const EQUILIBRIUM: f64 = 1.0e-9;
 const STIFF: f64 = 4.0;
 /// How often a step is shortened for what happens within it [-]: a slip that ends, then a touch before it.
 const SHORTER: usize = 8;
+/// A step is short below this part of its length [-]; so many in a row are too many.
+const SHORT: f64 = 1.0e-3;
+const SHORTS: u32 = 10_000;
 /// Halvings to an instant within a step [-]: to 1e-12 of it.
 const HALVINGS: usize = 40;
 /// A step this much shorter than the one before is the same [-].
@@ -344,7 +347,8 @@ impl Simulation {
             Control::Error(_) | Control::Mesh(_) => own,
         };
         let left = time.until(next);
-        let mut h = if own < left { own } else { left };
+        let full = if own < left { own } else { left };
+        let mut h = full;
 
         // shorter, where a slip turns round or another point touches within it, or where a slip that dies is
         // slow: its direction changes in u/(μ a). What begins to slide takes the whole step at once
@@ -368,6 +372,14 @@ impl Simulation {
             step = self.try_step(cluster, part, &led, &gaps, pace, time, h, kind)?;
         }
 
+        // steps that stay short for ever: touches that follow each other without end
+        let shorts = led.iter().map(|n| self.lanes[n.lane].short).fold(0, u32::max);
+        let shorts = if h < SHORT * full { shorts + 1 } else { 0 };
+        if shorts > SHORTS {
+            let why = format!("{SHORTS} steps in a row end in new touches, the last one after {h:e} s");
+            return Err(self.lasting(cluster, &cluster.contacts[part.contacts[0]], time, &why));
+        }
+
         // the numbers and their polynomials
         let front = if h == left { Time::new(next) } else { time + h };
         self.together_number += 1;
@@ -382,6 +394,7 @@ impl Simulation {
             counts.steps += 1;
             counts.evaluations += 4;
             let rest = vec![0.0; end.y1.len()];
+            lane.short = shorts;
             lane.flight.resume(&Front { time: front, since, y: end.y1.clone(), rest }, segment, counts);
             lane.pending = Some(f64::INFINITY);
         }

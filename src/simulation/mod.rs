@@ -110,6 +110,8 @@ struct Lane {
     held: Vec<usize>,
     /// The part that the lane's body is led with, where it stays in contact and moves.
     led: Option<usize>,
+    /// How many of its last steps in contact were short.
+    short: u32,
     /// Work of flights that impacts have ended.
     earlier: Counts,
     /// Motions at the instant under consideration.
@@ -205,6 +207,7 @@ impl Simulation {
                 pending: None,
                 held: Vec::new(),
                 led: None,
+                short: 0,
                 earlier: Counts::default(),
                 motions,
                 kink: None,

@@ -3,7 +3,7 @@
 use super::{distance, free_body, last, run, stepping};
 use bryla::compare::CompareOptions;
 use bryla::math::Vector3;
-use bryla::{Body, Cuboid, Method, Orientation, Record, RunOptions, Scene};
+use bryla::{Body, Cuboid, Method, Orientation, Record, RunOptions, Scene, Wrench};
 
 /// Trend of the kinetic energy of a tumbling block over `end` seconds: mean of the last quarter less that
 /// of the first, over the energy. The mean takes out the swing, which is of the method's order.
@@ -136,5 +136,35 @@ fn comparing_shows_error_falling_with_its_order_and_rising_cost() {
     }
     let csv = table.to_csv();
     assert_eq!(csv.lines().count(), 10);
-    assert!(csv.starts_with("method,step_s,error,evaluations,steps,seconds_min,seconds_median\neuler,2e-2,"));
+    assert!(
+        csv.starts_with("method,step_s,tolerance,error,evaluations,steps,seconds_min,seconds_median\neuler,2e-2,,")
+    );
+}
+
+#[test]
+fn comparing_by_tolerance_shows_errors_below_it_and_rising_cost() {
+    // a driven body, so that no closed form answers
+    let mut scene = free_body();
+    scene.add_effect(Wrench::new("body", [0.0; 3], [0.3, -0.1, 0.2]));
+    let (methods, tolerances) = (vec![Method::Tsit5, Method::Dop853], vec![1e-5, 1e-7, 1e-9]);
+    let options = CompareOptions { methods, tolerances: tolerances.clone(), repeats: 1, ..Default::default() };
+    let table = scene.compare(0.0..4.0, &options).unwrap();
+    assert_eq!(table.rows.len(), 6);
+    assert!(table.reference_error >= f64::EPSILON && table.reference_error < 1e-13, "{}", table.reference);
+    for rows in table.rows.chunks(3) {
+        for (row, tolerance) in rows.iter().zip(&tolerances) {
+            assert_eq!(row.tolerance, Some(*tolerance));
+            // a run without an estimate promises less than one with it: within a decade of what was asked
+            assert!(row.error.unwrap() < 10.0 * tolerance, "{row:?}");
+            assert!((row.step * row.steps as f64 - 4.0).abs() < 1e-12, "{row:?}");
+        }
+        assert!(rows.windows(2).all(|pair| pair[1].evaluations > pair[0].evaluations));
+    }
+    assert!(table.to_string().contains("tolerance") && table.to_csv().contains(",1e-7,"));
+
+    let named = CompareOptions { methods: vec![Method::Rk4], tolerances, ..Default::default() };
+    let message = scene.compare(0.0..4.0, &named).unwrap_err().to_string();
+    let said = "compare: tolerances must be steps for rk4, which does not choose them, or only tsit5, dop853, radau5, \
+                exact, got [1e-5, 1e-7, 1e-9]";
+    assert_eq!(message, said);
 }
