@@ -192,13 +192,8 @@ impl PyScene {
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     #[pyo3(
-<<<<<<< HEAD
-        signature = (t_span=None, *, methods=None, steps=None, repeats=5, progress=false, **options),
-        text_signature = "($self, t_span=None, *, methods=None, steps=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
-=======
         signature = (t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, progress=false, **options),
-        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, progress=False)"
->>>>>>> main
+        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "those of the core, and two of Python")]
     fn compare(
