@@ -11,7 +11,7 @@
 //! ½ w Σ |c_k| k!/(k−j−1)! s_max^(k−j−1)`, w being the interval's width: proved, and tight where the
 //! interval is short.
 
-use crate::freedom::Chart;
+use crate::freedom::{Chart, Form, Spin};
 use crate::impact::{Instant, MotionBounds, Moving};
 use crate::integrator::exact::FreeBounds;
 use crate::integrator::{ClosedMotion, Curve, Segment};
@@ -30,9 +30,18 @@ pub(super) struct Path<'a> {
 enum Kind<'a> {
     /// The body stays where it is.
     Resting { position: Vector3, orientation: Quaternion },
-    /// Polynomials of position, from `at`, and of the quaternion, from `at + 6`; `offset` from the
-    /// piece's start [s].
-    Polynomial { segment: &'a Segment, coefficients: &'a [f64], at: usize, offset: f64 },
+    /// Polynomials of position, from `at`, and of the quaternion, from `at + 6`, which stands for the shape's axes
+    /// after `turn`; `offset` from the piece's start [s].
+    Polynomial { segment: &'a Segment, coefficients: &'a [f64], at: usize, turn: Quaternion, offset: f64 },
+    /// The same with a rotation matrix, of whose turning nothing is proved.
+    Matrix {
+        segment: &'a Segment,
+        coefficients: &'a [f64],
+        at: usize,
+        chart: &'a Chart,
+        motion: BodyMotion,
+        offset: f64,
+    },
     /// A closed form of this number among the group's; `offset` from its beginning [s].
     Closed { motion: &'a ClosedMotion, member: usize, offset: f64 },
 }
@@ -46,7 +55,7 @@ impl<'a> Path<'a> {
     /// Member `member` of a group with these charts, from `offset` [s] after the start of a piece.
     pub(super) fn new(
         segment: &'a Segment,
-        charts: &[Chart],
+        charts: &'a [Chart],
         motions: &[BodyMotion],
         member: usize,
         offset: f64,
@@ -58,7 +67,14 @@ impl<'a> Path<'a> {
         let kind = match &segment.curve {
             Curve::Polynomial(coefficients) => {
                 let at = charts[..member].iter().map(Chart::dimension).sum();
-                Kind::Polynomial { segment, coefficients, at, offset }
+                let chart = &charts[member];
+                let spin = chart.spin_part(at).map(|(_, spin)| spin);
+                if spin.is_some_and(|spin| spin.form() == Form::WorldMatrix) {
+                    Kind::Matrix { segment, coefficients, at, chart, motion: motions[member], offset }
+                } else {
+                    let turn = spin.and_then(Spin::axes).map_or_else(Quaternion::identity, |axes| axes.conjugate());
+                    Kind::Polynomial { segment, coefficients, at, turn, offset }
+                }
             }
             Curve::Closed(motion, lead) => Kind::Closed { motion, member, offset: lead + offset },
         };
@@ -111,14 +127,20 @@ impl Moving for Path<'_> {
             Kind::Resting { position, orientation } => {
                 self.instant(position, &orientation, Vector3::zeros(), Vector3::zeros())
             }
-            Kind::Polynomial { segment, coefficients, at, offset } => {
+            Kind::Matrix { segment, at, chart, mut motion, offset, .. } => {
+                let mut y = vec![0.0; segment.dimension];
+                segment.at_offset(offset + t, &mut y);
+                chart.decode(&y[at..at + chart.dimension()], &mut motion);
+                self.instant(motion.position, &motion.orientation, motion.velocity, motion.angular_velocity)
+            }
+            Kind::Polynomial { segment, coefficients, at, turn, offset } => {
                 let (n, h) = (segment.dimension, segment.length);
                 let s = (offset + t) / h;
                 let [x, dx, ..] = derivatives::<3>(coefficients, n, at, s);
                 let [q, dq, ..] = derivatives::<4>(coefficients, n, at + 6, s);
                 let [q, dq] = [q, dq].map(quaternion::from_scalar_first);
                 let spin = 2.0 / (h * q.norm_squared()) * (dq * q.conjugate()).imag();
-                self.instant(x.into(), &q, Vector3::from(dx) / h, spin)
+                self.instant(x.into(), &(q * turn), Vector3::from(dx) / h, spin)
             }
             Kind::Closed { motion, member, offset } => {
                 let (position, velocity, q, spin) = motion.free_motion(member, offset + t);
@@ -130,13 +152,24 @@ impl Moving for Path<'_> {
     fn bounds(&self, from: f64, to: f64) -> MotionBounds {
         match self.kind {
             Kind::Resting { .. } => MotionBounds::uniform(0.0),
-            Kind::Polynomial { segment, coefficients: c, at, offset } => {
+            Kind::Matrix { segment, coefficients: c, at, offset, .. }
+            | Kind::Polynomial { segment, coefficients: c, at, offset, .. } => {
                 let (n, h) = (segment.dimension, segment.length);
                 let (a, b) = ((offset + from) / h, (offset + to) / h);
                 let (middle, half, s_max) = (0.5 * (a + b), 0.5 * (b - a), a.abs().max(b.abs()));
                 let [_, _, ddx, _] = derivatives::<3>(c, n, at, middle);
                 let acceleration = Vector3::from(ddx) / (h * h);
                 let deviation = half * bound::<3>(c, n, at, 3, s_max) / (h * h);
+
+                let unknown = MotionBounds {
+                    acceleration,
+                    deviation,
+                    angular_speed: f64::INFINITY,
+                    angular_acceleration: f64::INFINITY,
+                };
+                if matches!(self.kind, Kind::Matrix { .. }) {
+                    return unknown;
+                }
 
                 // q′, q″ by their values in the middle and what they may stray from them
                 let [q, dq, ddq, _] = derivatives::<4>(c, n, at + 6, middle).map(quaternion::from_scalar_first);
@@ -145,12 +178,7 @@ impl Moving for Path<'_> {
                 let first = dq.norm() + half * second;
                 let (least, most) = (q.norm() - half * first, q.norm() + half * first);
                 if least <= 0.0 {
-                    return MotionBounds {
-                        acceleration,
-                        deviation,
-                        angular_speed: f64::INFINITY,
-                        angular_acceleration: f64::INFINITY,
-                    };
+                    return unknown;
                 }
                 let least2 = least * least;
 
