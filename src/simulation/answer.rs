@@ -111,16 +111,13 @@ impl Simulation {
             }
         }
         self.released.clear();
-        self.released.extend(
-            cluster
-                .touching
-                .iter()
-                .filter(|t| {
-                    let lasts = |i: &usize| parts.iter().any(|part| part.contacts.contains(i));
-                    !t.contacts.clone().any(|i| lasts(&i))
-                })
-                .map(|t| t.bodies),
-        );
+        for touching in &cluster.touching {
+            let lasts = |i: usize| parts.iter().any(|part| part.contacts.contains(&i));
+            if !touching.contacts.clone().any(lasts) {
+                let opening = touching.contacts.clone().map(|i| -cluster.approach(&cluster.contacts[i]));
+                self.released.push((touching.bodies, opening.fold(f64::INFINITY, f64::min)));
+            }
+        }
         self.go_on(&cluster, &before, &modes, &parts, &pace, time, record)
     }
 
@@ -150,11 +147,15 @@ impl Simulation {
         let normal = |c: &Contact| c.normals.iter().sum::<Vector3>().try_normalize(0.0);
         let rows: Vec<(usize, Vector3)> =
             cluster.contacts.iter().enumerate().filter_map(|(i, c)| Some((i, normal(c)?))).collect();
-        let missing = |(i, _): &(usize, Vector3)| {
-            let gap = cluster.gaps[*i];
-            (0.5 * eps(&cluster.contacts[*i])).max(gap) - gap
-        };
-        let lifts: Vec<f64> = rows.iter().map(missing).collect();
+        // all points of a pair alike, which a shift can do however many they are
+        let mut missing = vec![0.0_f64; cluster.contacts.len()];
+        for touching in &cluster.touching {
+            let range = touching.contacts.clone();
+            let wanted = |i: usize| 0.5 * eps(&cluster.contacts[i]) - cluster.gaps[i];
+            let most = range.clone().map(wanted).fold(0.0, f64::max);
+            missing[range].fill(most);
+        }
+        let lifts: Vec<f64> = rows.iter().map(|(i, _)| missing[*i]).collect();
         let bodies = self.cluster_bodies(cluster, &cluster.motions);
         let shifts = align(&bodies, &cluster.contacts, &rows, &lifts);
         for (motion, shift) in cluster.motions.iter_mut().zip(shifts) {
@@ -425,7 +426,7 @@ impl Simulation {
                 || was_held != holds
                 || was_led
                 || modes[place] == Mode::Lead
-                || self.released.iter().any(|pair| pair.contains(&body)) && !holds;
+                || self.released.iter().any(|(pair, _)| pair.contains(&body)) && !holds;
             self.lanes[lane].held.retain(|held| *held != body);
             if holds {
                 self.lanes[lane].held.push(body);

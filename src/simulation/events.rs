@@ -13,7 +13,7 @@ use crate::math::sum::Time;
 use crate::plan::EPS_ROUNDING;
 use crate::shape::Shape;
 use crate::state::BodyMotion;
-use crate::tolerance::IMPACT_GAP;
+use crate::tolerance::{IMPACT_GAP, TOUCH_GAP};
 use crate::trajectory::Trajectory;
 
 /// How far a body moves in a window, in its own radii [-]. Longer: more pairs are looked at; shorter: more
@@ -172,6 +172,7 @@ impl Simulation {
             return Ok(());
         }
         let eps = self.eps(a, b);
+        let leaving = self.leaving(a, b, eps);
         let (mut from, mut iterations) = (0.0, 0);
         for _ in 0..GRAZES {
             let found = {
@@ -184,8 +185,8 @@ impl Simulation {
             iterations += rounds;
             match outcome {
                 // what the laws of contact have just let go opens too slowly to be told from what stays
-                Outcome::AlreadyTouching if from == 0.0 && time == 0.0 && self.released.contains(&[a, b]) => {
-                    from = self.leaving(a, b, eps).min(until);
+                Outcome::AlreadyTouching if from == 0.0 && time == 0.0 && leaving > 0.0 => {
+                    from = leaving;
                     if from >= until {
                         return Ok(());
                     }
@@ -216,16 +217,25 @@ impl Simulation {
         part.is_some_and(|part| part.pairs.contains(&pair))
     }
 
-    /// A time in which bodies that part without speed come apart by ε [s].
+    /// A time [s] in which bodies that were let go at this instant come apart by some ε: by the speed with which
+    /// they open, or by what their loads do. No point moves farther meanwhile than the points of a contact may
+    /// lie apart. Of other bodies it is 0.
     fn leaving(&self, a: usize, b: usize, eps: f64) -> f64 {
-        let [a, b] = [a, b].map(|body| {
-            let Some((lane, _)) = self.places[body] else { return Vector3::zeros() };
-            let motion = self.lanes[lane].motions[self.places[body].map_or(0, |(_, member)| member)];
+        let Some((_, opening)) = self.released.iter().find(|(pair, _)| *pair == [a, b]) else { return 0.0 };
+        let (mut acceleration, mut speed) = (Vector3::zeros(), 0.0);
+        for (body, sign) in [(a, -1.0), (b, 1.0)] {
+            let Some((lane, member)) = self.places[body] else { continue };
+            let motion = self.lanes[lane].motions[member];
             let moment = self.moment(lane, self.lanes[lane].flight.front());
-            self.load_on(lane, &motion, moment).force / motion.mass
-        });
-        let acceleration = (b - a).norm();
-        if acceleration > 0.0 { (2.0 * LEAVES * eps / acceleration).sqrt() } else { 0.0 }
+            acceleration += sign / motion.mass * self.load_on(lane, &motion, moment).force;
+            speed += motion.velocity.norm() + motion.angular_velocity.norm() * self.plan.bodies()[body].radius;
+        }
+        let by_speed = if *opening > 0.0 { LEAVES * eps / opening } else { f64::INFINITY };
+        let pull = acceleration.norm();
+        let by_load = if pull > 0.0 { (2.0 * LEAVES * eps / pull).sqrt() } else { f64::INFINITY };
+        let longest = if speed > 0.0 { TOUCH_GAP * self.size(a, b) / speed } else { f64::INFINITY };
+        let time = by_speed.min(by_load);
+        if time.is_finite() { time.min(longest) } else { 0.0 }
     }
 
     /// Whether the box of b, which moves, is beyond the plane of a half space a.

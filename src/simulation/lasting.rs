@@ -15,6 +15,7 @@
 use super::answer::Pace;
 use super::cluster::Cluster;
 use super::{Failure, Lane, Simulation, SimulationError};
+use crate::contact::anchor::Anchor;
 use crate::contact::cluster::{ClusterBody, ClusterError, Contact};
 use crate::contact::collision::{Law, collide};
 use crate::contact::rest::{Acceleration, Hold, Rest, Support, align, rest_sliding};
@@ -490,8 +491,7 @@ impl Simulation {
         }
         let (held, _) = self.rates(cluster, part, led, &motions, &y1, pace, time + h)?;
         power[1] = held.heat();
-        let mut drift = 0.0_f64;
-        let (mut rows, mut lifts, mut stops) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut rows, mut lifts, mut stops, mut carrying) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (i, &c) in part.contacts.iter().enumerate() {
             let (contact, slip) = (&held.contacts[i], &held.slips[i]);
             let n = held.rest.normals[i];
@@ -499,7 +499,7 @@ impl Simulation {
                 continue;
             }
             let gap = cluster.anchors[c].map_or(gaps[i], |a| a.gap(&motions[contact.a], &motions[contact.b]));
-            drift = drift.max((gap - gaps[i]).abs());
+            carrying.push(c);
             rows.push((i, n));
             lifts.push(gaps[i] - gap);
             stops.push(-n.dot(slip));
@@ -527,7 +527,7 @@ impl Simulation {
         }
         let last = self.rates_under(led, &motions, &y1, &held, time + h);
         let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
-        Ok(Step { h, kind, ends, motions, heat, power, drift })
+        Ok(Step { h, kind, ends, motions, heat, power, carrying })
     }
 
     /// The motions after one plastic impact of what the loads give in the time `h` [s], positions by the mean of
@@ -698,32 +698,34 @@ impl Simulation {
             first = first.min(high);
         }
 
-        // touches; what the step's error does to the gaps is none
-        let middle = motions_at(0.5 * step.h);
-        let mut drift = step.drift;
-        for &i in &part.contacts {
-            let contact = &cluster.contacts[i];
-            if let Some(anchor) = &cluster.anchors[i] {
-                let gap = anchor.gap(&middle[contact.a], &middle[contact.b]);
-                drift = drift.max(cluster.gaps[i] - gap);
-            }
-        }
+        // touches: points that come below the surface, by more than those that carry seem to within the step
         for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
             let pair = touching.bodies;
             let [Some(a), Some(b)] = pair.map(|i| cluster.place(i)) else { continue };
-            let gap = |motions: &[BodyMotion]| {
+            let carrying = step.carrying.iter().filter(|i| touching.contacts.contains(i));
+            let anchors: Vec<_> = carrying.filter_map(|&i| Some((i, cluster.anchors[i]?))).collect();
+            let below = |motions: &[BodyMotion]| {
                 let poses = [(pair[0], a), (pair[1], b)].map(|(i, place)| self.pose_of(i, &motions[place]));
-                Ok::<f64, SimulationError>(self.closest_at(pair, poses, time.value)?.signed_distance)
+                let gap = self.closest_at(pair, poses, time.value)?.signed_distance;
+                let sunk = |(i, anchor): &(usize, Anchor)| {
+                    let contact = &cluster.contacts[*i];
+                    cluster.gaps[*i] - anchor.gap(&motions[contact.a], &motions[contact.b])
+                };
+                Ok::<f64, SimulationError>(-gap - anchors.iter().map(sunk).fold(0.0, f64::max))
             };
-            let level = -(self.eps(pair[0], pair[1]) + DRIFTS * drift);
+            let level = BELOW * self.eps(pair[0], pair[1]);
             let end = if first < step.h { motions_at(first) } else { step.motions.clone() };
-            if gap(&end)? >= level {
+            if below(&end)? <= level {
                 continue;
             }
             let (mut low, mut high) = (0.0, first);
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (low + high);
-                if gap(&motions_at(middle))? >= level { low = middle } else { high = middle }
+                if below(&motions_at(middle))? <= level {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
             }
             first = low;
         }
@@ -731,8 +733,8 @@ impl Simulation {
     }
 }
 
-/// How many times the drift of the gaps in a step another point must sink to count as touching [-].
-const DRIFTS: f64 = 4.0;
+/// How far below the surface a point must come to count as touching, in ε [-].
+const BELOW: f64 = 2.0;
 
 /// How a step is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -780,8 +782,8 @@ struct Step {
     /// Heat of friction [J], and its power at both ends [W].
     heat: f64,
     power: [f64; 2],
-    /// How far the gaps had strayed [m].
-    drift: f64,
+    /// The contacts that carry at its end, as places in the cluster's list.
+    carrying: Vec<usize>,
 }
 
 impl Held {

@@ -144,8 +144,8 @@ pub struct Simulation {
     together_number: u64,
     /// Bodies that have stuck to a fixed one, for good.
     stuck: Vec<usize>,
-    /// Pairs that the laws of contact let go at the instant under consideration.
-    released: Vec<[usize; 2]>,
+    /// Pairs that the laws of contact let go at the instant under consideration, and how fast they open [m/s].
+    released: Vec<([usize; 2], f64)>,
     /// The last bounces of each pair, and when they would end [s].
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,

@@ -169,3 +169,25 @@ fn a_tilted_plane_is_a_plane() {
     let run = scene.run(0.0..2.0, &options()).unwrap();
     assert!((run.events()[0].time - 1.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_body_touches_where_its_vertices_are_whatever_numbers_it_is_integrated_in() {
+    // a lopsided tetrahedron, whose principal axes are not those of its shape; in air, so that it has no closed form
+    let vertices = [[0.0, 0.0, 0.0], [0.3, 0.0, 0.0], [0.1, 0.2, 0.0], [0.05, 0.1, 0.15]];
+    let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let body = Body::new("body", Polyhedron::new(vertices.to_vec(), faces.map(|f| f.to_vec()).to_vec())).density(500.0);
+    let body = body.position([0.0, 0.0, 1.0]).angular_velocity([3.0, 4.0, -2.0]).restitution(0.8);
+    let mut scene = floor_and(body);
+    scene.add_effect(bryla::Drag::new(0.0, 0.05));
+    let matrix = RunOptions::method(Method::Heun).step(1e-4).orientation(bryla::Orientation::Matrix);
+    for options in [RunOptions::tolerance(1e-9), matrix.finder(Finder::Secant)] {
+        let run = scene.run(0.0..0.6, &options).unwrap();
+        let event = &run.events()[0];
+        let pose = run.pose("body", event.time).unwrap();
+        let heights = vertices.map(|v| pose.point(&Vector3::from(v)).z);
+        let lowest = heights.into_iter().fold(f64::INFINITY, f64::min);
+        // ε is 1e-12 of the body's size
+        assert!((0.0..1e-12).contains(&lowest), "{lowest:e}");
+        assert!((event.point.z - 0.5 * lowest).abs() < 1e-12);
+    }
+}

@@ -1,7 +1,9 @@
 //! Bounces that end, and what rests: planes, slopes, boxes on boxes.
 
 use bryla::math::Vector3;
-use bryla::{Body, Cuboid, EventKind, HalfSpace, RunOptions, Scene, Sphere, Trajectory, UniformGravity};
+use bryla::{
+    Body, Cuboid, EventKind, HalfSpace, RunOptions, Scene, Sphere, Thruster, Trajectory, UniformGravity, Wrench,
+};
 
 const G: f64 = 10.0;
 
@@ -79,4 +81,30 @@ fn a_box_dropped_on_a_box_comes_to_rest_on_it() {
     assert!((upper.position - Vector3::new(0.0, 0.0, 0.3)).norm() < 1e-9, "{upper:?}");
     // flat all the way: no spin, ever
     assert!(run.events().iter().all(|event| event.angular_velocity[1].norm() < 1e-9));
+}
+
+#[test]
+fn what_rests_wakes_where_its_load_jumps_and_when_it_is_hit() {
+    // pushed from t = 0.5 on with F > μ m g: a = F/m − μ g
+    let (mu, force) = (0.3, 5.0);
+    let cube = || Body::new("cube", Cuboid::new([0.1, 0.1, 0.1])).mass(1.0).position([0.0, 0.0, 0.1]);
+    let mut pushed = slope_and(0.0, mu, [cube()]);
+    let push = Thruster::new("cube", [0.0, 0.0, -0.05], [force, 0.0, 0.0]);
+    pushed.add_effect(push.schedule([(0.0, 0.1), (0.5, 1.0)]));
+    let run_of = run(&pushed, 1.0);
+    let a = force - mu * G;
+    assert!((last(&run_of, 1).position.x - 0.5 * a * 0.25).abs() < 1e-9, "{}", last(&run_of, 1).position.x);
+    assert!(run_of.at(0.5).unwrap()[1].position.x.abs() < 1e-14);
+
+    // a load that swings below the limit of friction moves nothing; it is followed, not frozen
+    let mut shaken = slope_and(0.0, mu, [cube()]);
+    shaken.add_effect(Wrench::new("cube", [2.0, 0.0, 0.0], [0.0; 3]).oscillating(30.0, 0.0));
+    assert!(last(&run(&shaken, 0.5), 1).position.x.abs() < 1e-12);
+
+    // hit by an equal ball without friction: it takes the ball's speed and keeps it along the floor
+    let ball = Body::new("ball", Sphere::new(0.1)).mass(1.0).position([-0.7, 0.0, 0.1]).velocity([1.0, 0.0, 0.0]);
+    let hit = slope_and(0.0, 0.0, [cube().restitution(1.0), ball.restitution(0.0)]);
+    let run_of = run(&hit, 1.0);
+    assert!((last(&run_of, 1).velocity - Vector3::x()).norm() < 1e-12);
+    assert!((last(&run_of, 1).position.x - 0.5).abs() < 1e-9 && last(&run_of, 2).velocity.norm() < 1e-12);
 }
