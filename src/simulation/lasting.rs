@@ -454,7 +454,7 @@ impl Simulation {
             let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
             let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, pace, time)?;
             (first, power[0]) = (rates, held.heat());
-            let (motions, lost) = self.implicit(cluster, &held, time, h)?;
+            let (motions, lost) = self.implicit(cluster, part, time, h)?;
             heat = lost;
             for (n, y) in led.iter().zip(&mut y1) {
                 n.chart.encode(&motions[n.place].state(), y);
@@ -530,40 +530,66 @@ impl Simulation {
         Ok(Step { h, kind, ends, motions, heat, power, carrying })
     }
 
-    /// The motions after one plastic impact of what the loads give in the time `h` [s], positions by the mean of
-    /// both velocities; and the heat of the impulses [J].
+    /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
+    /// contacts half way, and the heat of its impulses [J]. Momenta stay where nothing acts:
+    ///
+    /// ```text
+    /// L⁺ = L + h M + Σ r × j        ω = I⁻¹ L with I half way        x⁺ = x + ½ h (v + v⁺)
+    /// ```
     fn implicit(
         &self,
         cluster: &Cluster,
-        held: &Held,
+        part: &Part,
         time: Time,
         h: f64,
     ) -> Result<(Vec<BodyMotion>, f64), SimulationError> {
-        let mut pushed = cluster.motions.clone();
-        for (&body, motion) in cluster.bodies.iter().zip(&mut pushed) {
-            let Some((lane, _)) = self.places[body].filter(|_| !self.is_stuck(body)) else { continue };
-            let load = self.load_on(lane, motion, self.moment(lane, time.value));
-            let free = Acceleration::free(&self.cluster_body(body, motion), &load);
-            motion.velocity += h * free.linear;
-            motion.angular_velocity += h * free.angular;
+        // half way, with the momenta of the start, and then with what the loads add to them
+        let moves = |body: usize| self.places[body].filter(|_| !self.is_stuck(body));
+        let inverse = |body: usize, motion: &BodyMotion, l: &Vector3| {
+            let own = motion.rotation.tr_mul(l);
+            motion.rotation * (self.plan.bodies()[body].properties.inv_inertia() * own)
+        };
+        let mut half = cluster.motions.clone();
+        for (&body, motion) in cluster.bodies.iter().zip(&mut half).filter(|(body, _)| moves(**body).is_some()) {
+            let l = motion.angular_momentum();
+            let (v, w) = (motion.velocity, motion.angular_velocity);
+            shift_by(motion, &(0.5 * h * v), &(0.5 * h * w));
+            motion.angular_velocity = inverse(body, motion, &l);
         }
-        let contacts: Vec<Contact> = held.contacts.iter().map(|c| c.clone().restitution(0.0)).collect();
+        let mut pushed = half.clone();
+        for (&body, motion) in cluster.bodies.iter().zip(&mut pushed) {
+            let Some((lane, _)) = moves(body) else { continue };
+            let load = self.load_on(lane, motion, self.moment(lane, time.value + 0.5 * h));
+            motion.velocity += h / motion.mass * load.force;
+            motion.angular_velocity += h * inverse(body, motion, &load.torque);
+        }
         let bodies = self.cluster_bodies(cluster, &pushed);
+        let contacts: Vec<Contact> = part
+            .contacts
+            .iter()
+            .map(|&i| {
+                let contact = &cluster.contacts[i];
+                cluster.anchors[i].map_or_else(|| contact.clone(), |anchor| anchor.support(contact, &bodies).contact)
+            })
+            .collect();
+        let contacts: Vec<Contact> = contacts.into_iter().map(|contact| contact.restitution(0.0)).collect();
         let after = collide(&bodies, &contacts, Law::Newton).map_err(|why| {
             let why = Failure::Refused(format!("the contact forces of a step cannot be found: {why}"));
             self.failure_of(&cluster.bodies, time.value, why)
         })?;
+
+        let mut ends = half.clone();
         let mut motions = cluster.motions.clone();
-        for ((motion, after), &body) in motions.iter_mut().zip(&after.velocities).zip(&cluster.bodies) {
-            if self.places[body].is_none() || self.is_stuck(body) {
-                continue;
-            }
-            let (v, w) = (motion.velocity + after.linear, motion.angular_velocity + after.angular);
-            shift_by(motion, &(0.5 * h * v), &(0.5 * h * w));
-            (motion.velocity, motion.angular_velocity) = (after.linear, after.angular);
+        for (k, &body) in cluster.bodies.iter().enumerate().filter(|(_, body)| moves(**body).is_some()) {
+            (ends[k].velocity, ends[k].angular_velocity) = (after.velocities[k].linear, after.velocities[k].angular);
+            let l = ends[k].angular_momentum();
+            let (v, w) = (half[k].velocity + ends[k].velocity, half[k].angular_velocity + ends[k].angular_velocity);
+            shift_by(&mut motions[k], &(0.5 * h * v), &(0.5 * h * w));
+            motions[k].velocity = ends[k].velocity;
+            motions[k].angular_velocity = inverse(body, &motions[k], &l);
         }
-        let ends = contacts.iter().zip(&held.slips).zip(&after.impulses);
-        let heat = -ends.map(|((c, slip), j)| 0.5 * j.dot(&(slip + c.slip(&motions)))).sum::<f64>();
+        let slips = contacts.iter().map(|contact| contact.slip(&half) + contact.slip(&ends));
+        let heat = -slips.zip(&after.impulses).map(|(u, j)| 0.5 * j.dot(&u)).sum::<f64>();
         Ok((motions, heat))
     }
 
@@ -741,8 +767,8 @@ const BELOW: f64 = 2.0;
 enum Kind {
     /// By the method of Runge and Kutta.
     Explicit,
-    /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end:
-    /// first order, but where the slip is slow its direction is stiff.
+    /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end,
+    /// whose direction is stiff where the slip is slow.
     Implicit,
 }
 
