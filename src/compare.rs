@@ -96,8 +96,14 @@ impl Scene {
     ) -> Result<ComparisonTable, RunError> {
         let span = span.into();
         let methods = if options.methods.is_empty() { Method::ALL } else { &options.methods };
-        let base =
-            RunOptions { tolerance: None, t_eval: None, estimate: false, record: Record::End, ..options.run.clone() };
+        let base = RunOptions {
+            tolerance: None,
+            t_eval: None,
+            estimate: false,
+            record: Record::End,
+            events: Vec::new(),
+            ..options.run.clone()
+        };
         let halvings = options.steps.is_empty() && options.tolerances.is_empty();
         let steps = if halvings { self.halvings(span, &base)? } else { options.steps.clone() };
         let shortest = steps.iter().copied().fold(f64::INFINITY, f64::min);

@@ -11,6 +11,15 @@ pub const VELOCITY_FITS_FREEDOM: f64 = 1.0e-9;
 /// How much longer than asked a step may be so that it ends on a hard stop [-]. Without it, rounding
 /// leaves steps of 1e-16 s before stops that the steps should have met.
 pub const STEP_REMAINDER: f64 = 1.0e-9;
+
+/// Intervals that shrink one after the other before a user's event can be said to accumulate [-], and the last of
+/// them as a part of the first [-]. Orbits that sink or oscillations that stiffen shorten theirs for thousands of
+/// rounds, but not a million times. Larger: such a motion is stopped. Smaller: more steps are spent on a limit that
+/// is never reached.
+pub const EVENTS_SHRINKING: u32 = 16;
+/// See [`EVENTS_SHRINKING`].
+pub const EVENTS_ACCUMULATE: f64 = 1.0e-6;
+
 /// How far a given inertia may be from symmetric, and how much its largest principal moment may
 /// exceed the sum of the two others, as a fraction of the largest entry [-]. Turning a tensor leaves
 /// 1e-15, a printout of ten digits 1e-10. What lies within is taken for rounding (the tensor is then

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
 use crate::integrator::Segment;
+use crate::math::roots::Passage;
 use crate::math::{Pose, Vector3};
 use crate::plan::{Any, Binding, Group, Plan};
 use crate::report::Report;
-use crate::scene::{BodyId, Record};
+use crate::scene::{BodyId, Record, UserEvent};
 use crate::state::{BodyMotion, BodyState, Load, Moment};
 
 #[cfg(feature = "serde")]
@@ -26,6 +27,8 @@ pub enum EventKind {
     Contact,
     /// Bodies rest on each other from here on, in equilibrium, until something hits them or a load changes.
     Rest,
+    /// A measure that the run watched met its value.
+    User,
 }
 
 impl EventKind {
@@ -36,6 +39,7 @@ impl EventKind {
             Self::Stick => "stick",
             Self::Contact => "contact",
             Self::Rest => "rest",
+            Self::User => "user",
         }
     }
 }
@@ -48,7 +52,12 @@ pub struct Event {
     pub time: f64,
     /// What.
     pub kind: EventKind,
-    /// The two bodies a and b, as places in the scene.
+    /// The name of a user's event; empty for impacts.
+    pub name: String,
+    /// How the measure of a user's event met its value.
+    pub passage: Option<Passage>,
+    /// The two bodies a and b, as places in the scene; the first and the last of a user's event, to which nothing
+    /// of the below applies.
     pub bodies: [usize; 2],
     /// Where the impulse acts [m]: the point of contact, or the centroid of several, weighted by their impulses.
     pub point: Vector3,
@@ -70,6 +79,30 @@ pub struct Event {
     pub other_angular_velocity: [Vector3; 2],
     /// Kinetic energy lost [J].
     pub energy_lost: f64,
+}
+
+impl Event {
+    /// A user's event at `time` [s], of these two bodies.
+    pub(crate) fn of_user(time: f64, event: &UserEvent, passage: Passage, bodies: [usize; 2]) -> Self {
+        let nothing = Vector3::zeros();
+        Self {
+            time,
+            kind: EventKind::User,
+            name: event.name.clone(),
+            passage: Some(passage),
+            bodies,
+            point: nothing,
+            normal: nothing,
+            impulse: nothing,
+            features: String::new(),
+            iterations: 0,
+            velocity: [nothing; 2],
+            angular_velocity: [nothing; 2],
+            other_velocity: [nothing; 2],
+            other_angular_velocity: [nothing; 2],
+            energy_lost: 0.0,
+        }
+    }
 }
 
 /// Heat of contacts outside of events: of friction over a time, of what gentle impacts take at once.
@@ -198,6 +231,8 @@ pub struct Trajectory {
     pub(crate) report: Report,
     /// How far the motion is known [s].
     pub(crate) end: f64,
+    /// The event that ended the run before its time.
+    pub(crate) ended_by: Option<String>,
 }
 
 impl Trajectory {
@@ -207,12 +242,22 @@ impl Trajectory {
         let states = rest.iter().cycle().take(times.len() * rest.len()).copied().collect();
         let end = times.first().copied().unwrap_or_default();
         let report = Report::new(&plan);
-        Self { plan, times, states, phases: Vec::new(), events: Vec::new(), heat: Vec::new(), report, end }
+        Self {
+            plan,
+            times,
+            states,
+            phases: Vec::new(),
+            events: Vec::new(),
+            heat: Vec::new(),
+            report,
+            end,
+            ended_by: None,
+        }
     }
 
     /// Whether a step up to `end` [s] is looked into: its motion is kept, or holds the sample at `cursor`.
     pub(crate) fn looks_into(&self, cursor: usize, end: f64) -> bool {
-        self.plan.options().record == Record::Dense || self.times.get(cursor).is_some_and(|&t| t < end)
+        self.keeps_motion() || self.times.get(cursor).is_some_and(|&t| t < end)
     }
 
     /// Keeps the samples of one step, and its motion where that is asked for. `cursor` is the
@@ -229,9 +274,15 @@ impl Trajectory {
             self.put_sample(*cursor, phase, scratch);
             *cursor += 1;
         }
-        if self.plan.options().record == Record::Dense {
+        if self.keeps_motion() {
             self.phases[phase].segments.push(segment.clone());
         }
+    }
+
+    /// Whether the motion of every step is kept: where that is asked for, and where an event may end the run, until
+    /// it has.
+    fn keeps_motion(&self) -> bool {
+        self.plan.options().record == Record::Dense || self.plan.options().may_end_early()
     }
 
     /// Keeps the motions as the samples from `cursor` to the time `to` [s].
@@ -256,6 +307,35 @@ impl Trajectory {
         let kept = self.times.partition_point(|&t| t <= end);
         self.times.truncate(kept);
         self.states.truncate(kept * self.plan.bodies().len());
+    }
+
+    /// Ends the run where an event did, at `end` [s], with a sample there; or leaves it as it is.
+    pub(crate) fn close(&mut self, ended: Option<(f64, String)>) {
+        if let Some((end, name)) = ended {
+            let last = self.motion_at(end);
+            self.cut(end);
+            self.events.retain(|event| event.time <= end);
+            if self.times.last().is_none_or(|&t| t < end) {
+                self.times.push(end);
+                self.states.extend(last);
+            }
+            self.phases.retain(|phase| phase.start <= end);
+            for phase in &mut self.phases {
+                phase.segments.retain(|segment| segment.start < end);
+                if let Some(segment) = phase.segments.last_mut() {
+                    segment.end = segment.end.min(end);
+                }
+            }
+            self.ended_by = Some(name);
+        }
+        if self.plan.options().record != Record::Dense {
+            self.phases.iter_mut().for_each(|phase| phase.segments.clear());
+        }
+    }
+
+    /// The name of the event that ended the run before its time, if one did.
+    pub fn ended_by(&self) -> Option<&str> {
+        self.ended_by.as_deref()
     }
 
     /// The plan that ran.
@@ -320,6 +400,11 @@ impl Trajectory {
             return Ok(self.states(sample).to_vec());
         }
         self.need_dense()?;
+        Ok(self.motion_at(t))
+    }
+
+    /// State of every body at any time [s] that the steps kept hold.
+    fn motion_at(&self, t: f64) -> Vec<BodyState> {
         let mut states: Vec<_> = self.plan.bodies().iter().map(|body| body.start.state()).collect();
         let mut motions = Vec::new();
         for (group, spec) in self.plan.groups().iter().enumerate() {
@@ -329,7 +414,7 @@ impl Trajectory {
                 states[index] = motion.state();
             }
         }
-        Ok(states)
+        states
     }
 
     fn need_dense(&self) -> Result<()> {

@@ -54,6 +54,8 @@ _Bodies: TypeAlias = tuple[BodyMotion, ...]
 _Pair: TypeAlias = tuple[_Numbers, _Numbers] | Sequence[_Numbers] | npt.NDArray[Any]
 _Loads: TypeAlias = Callable[[float, _Bodies], _Pair] | Callable[[float, _Bodies], Iterable[_Pair]]
 _Energy: TypeAlias = Callable[[float, _Bodies], float]
+_Measure: TypeAlias = Callable[[float, _Bodies], _Number] | str | dict[str, Any]
+_Direction: TypeAlias = Literal["rising", "falling", "both"]
 __version__: Final[str]
 METHODS: Final[tuple[str, ...]]
 
@@ -836,6 +838,75 @@ class UserEffect:
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
+class UserEvent:
+    """An event: a measure of the motion meets a value.
+
+        g(t) = measure(t, bodies) − value = 0
+
+    It is searched for along the motion of every step, and located to a few ulp of the time. Steps are
+    excluded by bounds of g, not by the signs at their ends, so that double roots and close pairs are
+    seen; a touch is told where g comes to 0 within its rounding and goes back. A zero at the very
+    start is no event, nor is one that the run ends on before g is seen leaving. Bodies of one event
+    share one integrator and one clock.
+
+    With a function it is code, and can neither be written to a file nor pickled. What the function
+    raises ends the run and becomes the cause of its SimulationError.
+
+    Parameters
+    ----------
+    name : str
+        A name that no other event of the run has.
+    measure : callable, str or dict
+        measure(t, bodies) -> float, a smooth function of a time [s] and a tuple of BodyMotion; or "speed",
+        "angular_speed", "distance" (of two bodies), {"position": n}, {"velocity": n},
+        {"angular_velocity": n}, {"angular_velocity_body": n} with a direction n of 3 numbers, or
+        {"tilt": {"axis_body": a, "axis": n}}, (R a)·n.
+    bodies : list of str
+        The bodies that it is measured of, in this order.
+    value : float
+        The value that it shall meet.
+    direction : {"both", "rising", "falling"}
+        Which passages count; "both" (default) counts touches too.
+    terminal : bool
+        Whether the run ends there.
+    """
+
+    def __new__(
+        cls,
+        name: str,
+        measure: _Measure,
+        bodies: Iterable[str],
+        value: _Number = 0.0,
+        direction: _Direction = "both",
+        terminal: bool = False,
+    ) -> UserEvent: ...
+    @property
+    def name(self) -> str:
+        """A name that no other event of the run has."""
+
+    @property
+    def measure(self) -> _Measure:
+        """What is watched: a callable, a str or a dict."""
+
+    @property
+    def bodies(self) -> list[str]:
+        """The bodies that it is measured of."""
+
+    @property
+    def value(self) -> float:
+        """The value that it shall meet, in the unit of the measure."""
+
+    @property
+    def direction(self) -> str:
+        """Which passages count: "rising", "falling" or "both"."""
+
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
 class Planar:
     """Motion in a plane through the body's start: 3 degrees of freedom.
 
@@ -1137,6 +1208,7 @@ class Scene:
         finder: _Finder | None = None,
         eps: _Number | None = None,
         restitution_law: _RestitutionLaw | None = None,
+        events: Iterable[UserEvent] | None = None,
     ) -> Plan:
         """Checks the scene and keeps what it calls for: a Plan. The options are those of `run`."""
 
@@ -1159,6 +1231,7 @@ class Scene:
         finder: _Finder | None = None,
         eps: _Number | None = None,
         restitution_law: _RestitutionLaw | None = None,
+        events: Iterable[UserEvent] | None = None,
         progress: bool = False,
     ) -> Trajectory:
         """Runs the scene over a span, and returns its Trajectory.
@@ -1198,6 +1271,8 @@ class Scene:
         restitution_law : {"newton", "poisson", "stronge"}, optional
             What comes back where friction couples normal and tangent: the normal velocity (default), the
             impulse of compression, or its work.
+        events : list of UserEvent, optional
+            What is watched for.
         progress : bool
             Whether a progress line is shown on a terminal.
 
@@ -1334,6 +1409,10 @@ class Trajectory:
     @property
     def end(self) -> float:
         """How far the motion is known [s]."""
+
+    @property
+    def ended_by(self) -> str | None:
+        """The name of the event that ended the run before its time, or None."""
 
     @property
     def names(self) -> list[str]:
@@ -1501,11 +1580,19 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What: "bounce", "stick", "contact" (they stay in contact and move) or "rest"."""
+        """What: "bounce", "stick", "contact" (they stay in contact and move), "rest" or "user"."""
+
+    @property
+    def name(self) -> str:
+        """The name of a UserEvent; empty for impacts."""
+
+    @property
+    def passage(self) -> str | None:
+        """How the measure of a UserEvent met its value: "rising", "falling" or "touching"; None for impacts."""
 
     @property
     def bodies(self) -> tuple[str, str]:
-        """Names of the two bodies."""
+        """Names of the two bodies; the first and the last of a UserEvent, to which nothing of the below applies."""
 
     @property
     def point(self) -> _Array:

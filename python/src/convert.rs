@@ -3,7 +3,7 @@
 use bryla::contact::collision::Law;
 use bryla::effect::Frame;
 use bryla::math::{Matrix3, Vector3};
-use bryla::{Finder, Orientation, Record, Response, Schedule};
+use bryla::{Direction, Finder, Orientation, Record, Response, Schedule};
 use numpy::{AllowTypeChange, IxDyn, PyArray1, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -198,6 +198,7 @@ names! {
     Orientation: "run", "orientation";
     Finder: "run", "finder";
     Law: "run", "restitution_law";
+    Direction: "event", "direction";
 }
 
 /// A call that would make the object again, such as `Sphere(radius=0.1)`; what is `None` is left out.

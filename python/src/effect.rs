@@ -419,7 +419,7 @@ impl Functions {
 
 /// What a user's function returns; an exception is kept, and its text returned. After one that shall end the
 /// program, such as `KeyboardInterrupt`, no function is called any more.
-fn called<T>(
+pub(crate) fn called<T>(
     function: &Py<PyAny>,
     t: f64,
     bodies: &[BodyMotion],

@@ -13,6 +13,7 @@ mod compare;
 mod convert;
 mod effect;
 mod error;
+mod event;
 mod freedom;
 mod mass;
 mod math;
@@ -42,6 +43,7 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     shape::register(module)?;
     closest::register(module)?;
     effect::register(module)?;
+    module.add_class::<event::PyUserEvent>()?;
     freedom::register(module)?;
     module.add_class::<body::PyBody>()?;
     module.add_class::<body::PyBodyMotion>()?;

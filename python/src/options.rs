@@ -8,6 +8,7 @@ use pyo3::types::PyDict;
 
 use crate::convert::{List, Plain};
 use crate::error::Result;
+use crate::event::events;
 
 /// What the call says, and for the rest what the scene says.
 ///
@@ -36,6 +37,7 @@ pub(crate) fn run_options(scene: &RunOptions, function: &str, given: Option<&Bou
             "finder" => options.finder = Plain::from_python(read(&name, &value)?)?,
             "eps" => options.eps = Some(read(&name, &value)?),
             "restitution_law" => options.restitution_law = Plain::from_python(read(&name, &value)?)?,
+            "events" => options.events = events(&value)?,
             _ => {
                 let message = format!("{function}() got an unexpected keyword argument '{name}'");
                 return Err(PyTypeError::new_err(message).into());

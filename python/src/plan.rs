@@ -64,6 +64,7 @@ impl PyPlan {
 
     /// Refused where there is a user effect, which is code.
     fn __reduce__<'py>(&self, py: Python<'py>) -> Result<Reduced<'py>> {
+        self.0.check_writable()?;
         let text = self.0.scene().to_text(bryla::scene::file::Format::Json)?;
         Ok(convert::reduce(&py.get_type::<Self>(), &(text, self.0.options()))?)
     }

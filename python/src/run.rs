@@ -109,7 +109,10 @@ pub(crate) fn watched<T: Send>(
 pub(crate) fn explained(py: Python<'_>, failure: Failure, interrupted: Option<PyErr>) -> Failure {
     let Failure::Simulation(broken) = &failure else { return failure };
     // a step that a function broke may have been mended since
-    let by_a_function = matches!(broken.kind, simulation::Failure::Flight(FlightError::UserEffect(_)));
+    let by_a_function = matches!(
+        broken.kind,
+        simulation::Failure::Flight(FlightError::UserEffect(_)) | simulation::Failure::UserEvent(..)
+    );
     let raised = take_raised().filter(|raised| by_a_function || !raised.is_instance_of::<PyException>(py));
     let Some(behind) = interrupted.or(raised) else { return failure };
     let failure = PyErr::from(failure);

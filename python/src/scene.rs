@@ -90,7 +90,7 @@ impl PyScene {
     /// Checks the scene and keeps what it calls for: a Plan. The options are those of `run`.
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None)"
+        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None)"
     )]
     fn compile(&self, options: Option<&Bound<'_, PyDict>>) -> Result<PyPlan> {
         let options = run_options(&self.0.run, "compile", options)?;
@@ -140,6 +140,8 @@ impl PyScene {
     /// restitution_law : {"newton", "poisson", "stronge"}, optional
     ///     What comes back where friction couples normal and tangent: the normal velocity (default), the
     ///     impulse of compression, or its work.
+    /// events : list of UserEvent, optional
+    ///     What is watched for.
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     ///
@@ -156,7 +158,7 @@ impl PyScene {
     ///     The tolerance is not met over the whole span; report.horizon says up to when it is.
     #[pyo3(
         signature = (t_span=None, *, progress=false, **options),
-        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
+        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None, progress=False)"
     )]
     fn run(
         &self,
@@ -207,7 +209,7 @@ impl PyScene {
         progress: bool,
         options: Option<&Bound<'_, PyDict>>,
     ) -> Result<PyComparisonTable> {
-        for name in ["tolerance", "method", "step", "t_eval", "estimate", "record"] {
+        for name in ["tolerance", "method", "step", "t_eval", "estimate", "record", "events"] {
             if options.is_some_and(|options| options.contains(name).unwrap_or(false)) {
                 let message = format!("compare() got an unexpected keyword argument '{name}'");
                 return Err(PyTypeError::new_err(message).into());

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::convert::{self, Array, List, Numbers, Reduced};
 use crate::effect::check_raised;
 use crate::error::Result;
+use crate::event::passage;
 use crate::math::PyPose;
 use crate::plan::PyPlan;
 use crate::report::PyReport;
@@ -246,6 +247,12 @@ motion_class! {
             self.run().end()
         }
 
+        /// The name of the event that ended the run before its time, or None.
+        #[getter]
+        fn ended_by(&self) -> Option<&str> {
+            self.run().ended_by()
+        }
+
         /// Names of the bodies, in the order of the body axis.
         #[getter]
         fn names(&self) -> Vec<String> {
@@ -441,10 +448,9 @@ fn one_body(from: &Selection, name: &str) -> Result<PyStates> {
     Ok(PyStates(Selection { body: Some(body), ..from.clone() }))
 }
 
-/// Refuses the run of a scene with user effects.
+/// Refuses the run of a scene with functions of the user.
 fn refuse_code(run: &Trajectory) -> Result<()> {
-    run.plan().scene().to_text(bryla::scene::file::Format::Json)?;
-    Ok(())
+    Ok(run.plan().check_writable()?)
 }
 
 /// Something that happened at an instant. World axes; the normal points from the first body to the
@@ -476,13 +482,25 @@ impl PyEvent {
         self.event.time
     }
 
-    /// What: "bounce", "stick", "contact" (they stay in contact and move) or "rest".
+    /// What: "bounce", "stick", "contact" (they stay in contact and move), "rest" or "user".
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.name()
     }
 
-    /// Names of the two bodies.
+    /// The name of a UserEvent; empty for impacts.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.event.name
+    }
+
+    /// How the measure of a UserEvent met its value: "rising", "falling" or "touching"; None for impacts.
+    #[getter]
+    fn passage(&self) -> Option<&'static str> {
+        passage(self.event.passage)
+    }
+
+    /// Names of the two bodies; the first and the last of a UserEvent, to which nothing of the below applies.
     #[getter]
     fn bodies(&self) -> (String, String) {
         self.bodies.clone()
@@ -537,6 +555,9 @@ impl PyEvent {
     }
 
     fn __repr__(&self) -> String {
+        if let Some(passage) = self.passage() {
+            return format!("<bryla.Event: {} {passage} at t = {} s>", self.name(), self.event.time);
+        }
         let (a, b) = &self.bodies;
         format!("<bryla.Event: {} of {b} on {a} ({}) at t = {} s>", self.kind(), self.event.features, self.event.time)
     }

@@ -291,6 +291,10 @@ fn summary(run: &Trajectory) -> Result<String> {
         short(energy.drift())
     );
     for event in run.events() {
+        if let Some(passage) = event.passage {
+            text += &format!("  {:<10} t = {} s, {}\n", event.name, short(event.time), passage.name());
+            continue;
+        }
         let names = event.bodies.map(|i| run.plan().bodies()[i].name.as_str());
         text += &format!(
             "  {:<10} t = {} s, {}–{}, {}: impulse {} N·s, {} J lost\n",

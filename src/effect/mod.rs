@@ -71,6 +71,11 @@ pub trait Effect: Debug + Send + Sync {
         true
     }
 
+    /// Whether the load depends neither on time nor on the motion: it is worked out once.
+    fn is_constant(&self) -> bool {
+        false
+    }
+
     /// Vectors at whose zeros the load has a kink, such as the speed of quadratic drag. Runs to a tolerance
     /// end a step where one turns round.
     fn kinks(&self, _body: &BodyMotion) -> [Option<Vector3>; 2] {

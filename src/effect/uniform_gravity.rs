@@ -58,6 +58,10 @@ impl Effect for UniformGravity {
         false
     }
 
+    fn is_constant(&self) -> bool {
+        true
+    }
+
     fn add_to_one(&self, _at: Moment, body: &BodyMotion, load: &mut Load) {
         load.force += body.mass * Vector3::from(self.acceleration);
     }

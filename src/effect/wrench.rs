@@ -146,6 +146,11 @@ impl Effect for Wrench {
         false
     }
 
+    fn is_constant(&self) -> bool {
+        let Self { frame, point, schedule, angular_frequency, .. } = self;
+        *frame == Frame::World && point.is_none() && schedule.is_none() && angular_frequency.is_none()
+    }
+
     fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {
         let oscillation = self.angular_frequency.map_or(1.0, |w| libm::sin(w * at.time + self.phase));
         let factor = oscillation * Schedule::factor_or_one(self.schedule.as_ref(), at.since);

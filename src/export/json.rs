@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::{Array, arrays};
 use crate::error::Result;
+use crate::math::roots::Passage;
 use crate::trajectory::Trajectory;
 
 pub(super) fn write(run: &Trajectory) -> Result<String> {
@@ -16,6 +17,8 @@ pub(super) fn write(run: &Trajectory) -> Result<String> {
             json!({
                 "time": event.time,
                 "kind": event.kind.name(),
+                "name": event.name,
+                "passage": event.passage.map(Passage::name),
                 "bodies": event.bodies.map(|i| names[i]),
                 "point": event.point.as_slice(),
                 "normal": event.normal.as_slice(),

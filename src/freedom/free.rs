@@ -2,6 +2,7 @@
 
 use super::Scales;
 use super::spin::{Form, RotationSplit, Spin, put, vector};
+use crate::math::Vector3;
 use crate::math::sum::two_sum;
 use crate::state::{BodyMotion, BodyState, Load};
 
@@ -53,6 +54,15 @@ impl Free {
         put(dy, &motion.velocity);
         put(&mut dy[3..], &load.force);
         self.spin.rate(&y[6..], &motion.rotation, &motion.angular_velocity, &load.torque, &mut dy[6..]);
+    }
+
+    #[inline(always)]
+    pub(super) fn rate_constant(&self, y: &[f64], load: &Load, dy: &mut [f64]) {
+        self.rate_unloaded(y, dy);
+        put(&mut dy[3..], &load.force);
+        if load.torque != Vector3::zeros() {
+            self.spin.rate_constant(&y[6..], &Vector3::zeros(), load, &mut dy[6..]);
+        }
     }
 
     #[inline(always)]

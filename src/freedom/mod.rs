@@ -173,6 +173,22 @@ impl Chart {
         dispatch!(self, c => c.rate(y, motion, load, dy), ());
     }
 
+    /// The same under a load that does not depend on the motion, of which only what is needed is read; `motion`
+    /// is room to work in.
+    #[inline(always)]
+    pub fn rate_constant(&self, y: &[f64], motion: &mut BodyMotion, load: &Load, dy: &mut [f64]) {
+        match self {
+            Self::Free(c) => c.rate_constant(y, load, dy),
+            Self::Pivot(c) => c.rate_constant(y, load, dy),
+            Self::Planar(_) => self.rate(y, motion, load, dy),
+            Self::Axle(_) => {
+                self.decode(y, motion);
+                self.rate(y, motion, load, dy);
+            }
+            Self::Fixed => {}
+        }
+    }
+
     /// `dY/dt` where nothing acts on the body: no load, and no motion to be read first. It is also
     /// the drift of a splitting, whose kick is the rest of [`rate`](Self::rate).
     #[inline(always)]

@@ -73,6 +73,11 @@ impl Pivot {
     }
 
     #[inline(always)]
+    pub(super) fn rate_constant(&self, y: &[f64], load: &Load, dy: &mut [f64]) {
+        self.spin.rate_constant(y, &self.arm_body, load, dy);
+    }
+
+    #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         self.spin.rate_unloaded(y, dy);
     }

@@ -4,6 +4,7 @@ use super::Scales;
 use crate::mass::MassProperties;
 use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
+use crate::state::Load;
 
 /// How orientation and angular momentum are written as numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -190,6 +191,22 @@ impl Spin {
                 let torque = self.axes.as_ref().map_or(torque_body, |(_, axes)| axes.tr_mul(&torque_body));
                 self.rate_body(y, &torque, dy);
             }
+        }
+    }
+
+    /// The same under a load of which the force acts at `arm` from the point, body axes. In body axes the torque is
+    /// `arm × Rᵀ F + Rᵀ M`, with `R = M/|q|²`: nothing of the motion is read but R.
+    #[inline(always)]
+    pub(super) fn rate_constant(&self, y: &[f64], arm: &Vector3, load: &Load, dy: &mut [f64]) {
+        if self.form == Form::Body {
+            let (scaled, n) = quaternion::to_scaled_matrix(&quaternion_at(y));
+            // the arm in principal axes, where the matrix leads to
+            let arm = self.axes.as_ref().map_or(*arm, |(_, axes)| axes.tr_mul(arm));
+            let torque = (arm.cross(&scaled.tr_mul(&load.force)) + scaled.tr_mul(&load.torque)) * (1.0 / n);
+            self.rate_body(y, &torque, dy);
+        } else {
+            let (_, r, w) = self.decode(y);
+            self.rate(y, &r, &w, &(load.torque + (r * arm).cross(&load.force)), dy);
         }
     }
 

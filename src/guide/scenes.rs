@@ -353,6 +353,7 @@
 //! | `finder` | | `"guaranteed"` | how the time of contact is found: `"guaranteed"` proves every piece of the way free; the lecture's `"secant"` and `"bisection"` look at the ends of steps |
 //! | `eps` | m | 1e-12 of the pair's size | gap at which a contact is accepted; never below the rounding of the coordinates |
 //! | `restitution_law` | | `"newton"` | what comes back where friction couples normal and tangent: the normal velocity (`"newton"`), the impulse of compression (`"poisson"`), or its work (`"stronge"`) |
+//! | `events` | | none | a list: what is watched for; see [Events](#events) |
 //!
 //! ```toml
 //! [run]
@@ -376,6 +377,72 @@
 //! finder = "secant"
 //! eps = 1e-9
 //! restitution_law = "poisson"
+//! ```
+//!
+//! # Events
+//!
+//! An event is a measure of the motion that meets a value. It is searched for along the motion of every step, by
+//! bounds rather than by signs, so that touches and close pairs are seen, and located to a few ulp of the time. It
+//! changes nothing, unless it ends the run.
+//!
+//! | key | unit | if left out | meaning |
+//! |---|---|---|---|
+//! | `name` | | must be given | a name that no other event has |
+//! | `measure` | | must be given | what is watched, see below |
+//! | `bodies` | | must be given | the bodies that it is measured of: one, or two for `distance` |
+//! | `value` | that of the measure | 0 | the value that it shall meet |
+//! | `direction` | | `"both"` | `"rising"`, `"falling"`, or `"both"`, with which touches count too |
+//! | `terminal` | | `false` | whether the run ends there |
+//!
+//! | measure | unit | is |
+//! |---|---|---|
+//! | `position = n` | m | `n·x`, n a direction of 3 numbers in world axes |
+//! | `velocity = n` | m/s | `n·v` |
+//! | `"speed"` | m/s | `|v|` |
+//! | `angular_velocity = n` | rad/s | `n·ω` |
+//! | `angular_velocity_body = n` | rad/s | `n·Rᵀω`, n in body axes |
+//! | `"angular_speed"` | rad/s | `|ω|` |
+//! | `tilt` with `axis_body` a and `axis` n | – | `(R a)·n`, the cosine of their angle where both have length 1 |
+//! | `"distance"` | m | between the centres of mass of two bodies |
+//!
+//! ```toml
+//! [run]
+//! t_span = [0.0, 4.0]
+//!
+//! [[run.events]]
+//! name = "top"
+//! measure.velocity = [0.0, 0.0, 1.0]
+//! bodies = ["ball"]
+//! direction = "falling"
+//!
+//! [[run.events]]
+//! name = "landing"
+//! measure.position = [0.0, 0.0, 1.0]
+//! bodies = ["ball"]
+//! value = 0.1
+//! direction = "falling"
+//! terminal = true
+//!
+//! [[run.events]]
+//! name = "slow"
+//! measure = "speed"
+//! bodies = ["ball"]
+//! value = 2.0
+//!
+//! [[run.events]]
+//! name = "on its side"
+//! measure.tilt = { axis_body = [0.0, 0.0, 1.0], axis = [0.0, 0.0, 1.0] }
+//! bodies = ["ball"]
+//!
+//! [[bodies]]
+//! name = "ball"
+//! shape.sphere.radius = 0.1
+//! mass = 0.5
+//! velocity = [1.0, 0.0, 6.0]
+//! angular_velocity = [1.0, 0.0, 2.0]
+//!
+//! [[effects]]
+//! uniform_gravity.acceleration = [0.0, 0.0, -9.81]
 //! ```
 
 #[cfg(test)]

@@ -227,9 +227,13 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Where a step from `t` [s] ends: at the next node, or the next cut between two; infinity after all.
+    /// Where a step from `t` [s] ends: at the next node, or the next cut between two; after all, as far on as they
+    /// were apart last.
     fn end_after(&self, t: f64) -> f64 {
         let next = self.nodes.partition_point(|&node| node <= t);
+        if let ([.., a, b], true) = (&*self.nodes, next == self.nodes.len()) {
+            return t + (b - a) / f64::from(self.pieces);
+        }
         let (Some(&b), true) = (self.nodes.get(next), next > 0) else { return f64::INFINITY };
         let (a, pieces) = (self.nodes[next - 1], f64::from(self.pieces));
         let cut = |j: f64| if j < pieces { a + (b - a) * (j / pieces) } else { b };

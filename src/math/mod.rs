@@ -8,6 +8,7 @@
 //! | [`double_double`] | – | numbers of twice the digits, for sums that cancel |
 //! | [`elliptic`] | – | elliptic integrals and functions of Jacobi |
 //! | [`pose`] | §1 | where a body frame stands in the world |
+//! | [`roots`] | – | where a smooth function passes through 0 or touches it |
 //! | [`sum`] | – | time and sums with their rounding error kept |
 
 pub mod decay;
@@ -15,6 +16,7 @@ pub mod double_double;
 pub mod elliptic;
 pub mod pose;
 pub mod quaternion;
+pub mod roots;
 pub mod rotation;
 pub mod sum;
 

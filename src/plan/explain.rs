@@ -111,6 +111,19 @@ impl Plan {
         let effects = if effects.is_empty() { "nothing acts on it".to_owned() } else { effects.join(", ") };
         writeln!(out, "  {:<10} {effects}", "")?;
         writeln!(out, "  {:<10} {}: {}", "", group.method, group.why)?;
+        for watch in &group.watches {
+            let event = &self.options.events[watch.event];
+            let (value, bodies) = (short(event.value), event.bodies.join(", "));
+            let ends = if event.terminal { "; ends the run" } else { "" };
+            writeln!(
+                out,
+                "  {:<10} event {}: {} of {bodies} at {value}, {}{ends}",
+                "",
+                event.name,
+                event.measure.name(),
+                event.direction.name()
+            )?;
+        }
         if !group.switches.is_empty() {
             let times: Vec<_> = group.switches.iter().map(|t| short(*t)).collect();
             writeln!(out, "  {:<10} steps end at the switches t = {} s", "", times.join(", "))?;

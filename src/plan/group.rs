@@ -146,9 +146,12 @@ pub struct Group<K> {
     bindings: Vec<Binding>,
     motions: Vec<BodyMotion>,
     loads: Vec<Load>,
+    /// Of these, what depends neither on time nor on the motion.
+    constant: Vec<Load>,
     /// What an effect on some of the bodies is shown.
     shown: Vec<BodyMotion>,
     shown_loads: Vec<Load>,
+    is_loaded: bool,
     depends_on_velocity: bool,
     kind: std::marker::PhantomData<fn() -> K>,
 }
@@ -157,17 +160,26 @@ impl<K: Kind> Group<K> {
     /// Bodies with these coordinates; of `motions`, mass, inertia and what no coordinate moves stay.
     pub(crate) fn new(charts: Vec<Chart>, motions: Vec<BodyMotion>, bindings: Vec<Binding>) -> Self {
         let n = motions.len();
-        let depends_on_velocity = bindings.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
-        Self {
+        let is_loaded = !bindings.is_empty();
+        let (constant, changing): (Vec<_>, Vec<_>) =
+            bindings.into_iter().partition(|binding| binding.effect.as_effect().is_constant());
+        let depends_on_velocity = changing.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
+        let mut group = Self {
+            is_loaded,
             depends_on_velocity,
             charts,
-            bindings,
+            bindings: constant,
             motions,
             loads: vec![Load::zero(); n],
+            constant: vec![Load::zero(); n],
             shown: Vec::with_capacity(n),
             shown_loads: Vec::with_capacity(n),
             kind: std::marker::PhantomData,
-        }
+        };
+        group.add_loads(Moment { time: 0.0, since: 0.0 });
+        group.constant.clone_from(&group.loads);
+        group.bindings = changing;
+        group
     }
 
     /// Reads the motion of every body from the numbers.
@@ -197,6 +209,9 @@ impl<K: Kind> Group<K> {
     /// `dy = f(t, y)` where something acts.
     #[inline(never)]
     fn rate_loaded(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
+        if self.bindings.is_empty() {
+            return self.rate_constant(y.as_ref(), dy.as_mut());
+        }
         Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
         self.add_loads(at);
         let (y, dy) = (y.as_ref(), dy.as_mut());
@@ -208,9 +223,20 @@ impl<K: Kind> Group<K> {
         }
     }
 
+    /// `dy = f(t, y)` where all loads are constant: no motion is written down to be read again.
+    #[inline(always)]
+    fn rate_constant(&mut self, y: &[f64], dy: &mut [f64]) {
+        let mut at = 0;
+        for ((chart, motion), load) in K::narrow(&self.charts).iter().zip(&mut self.motions).zip(&self.constant) {
+            let n = chart.dimension();
+            chart.rate_constant(&y[at..at + n], motion, load, &mut dy[at..at + n]);
+            at += n;
+        }
+    }
+
     /// Loads of all effects on the motions as they stand.
     fn add_loads(&mut self, at: Moment) {
-        self.loads.fill(Load::zero());
+        self.loads.copy_from_slice(&self.constant);
         for binding in &self.bindings {
             let effect = binding.effect.as_effect();
             if binding.members.len() == self.motions.len() && binding.in_order {
@@ -248,10 +274,10 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn rate(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
-        match (K::UNLOADED, self.bindings.is_empty()) {
+        match (K::UNLOADED, self.is_loaded) {
             (true, _) => K::rate_unloaded(&self.charts, y, dy),
-            (false, true) => self.drift(y, dy),
-            (false, false) => self.rate_loaded(at, y, dy),
+            (false, false) => self.drift(y, dy),
+            (false, true) => self.rate_loaded(at, y, dy),
         }
     }
 
@@ -261,7 +287,7 @@ impl<K: Kind> Problem for Group<K> {
     }
 
     fn is_loaded(&self) -> bool {
-        !K::UNLOADED && !self.bindings.is_empty()
+        !K::UNLOADED && self.is_loaded
     }
 
     fn depends_on_velocity(&self) -> bool {

@@ -22,6 +22,7 @@ use crate::state::{BodyMotion, BodyState};
 mod explain;
 mod group;
 mod method;
+mod watch;
 
 pub use group::{Any, Group};
 
@@ -88,6 +89,8 @@ pub struct FlightGroup {
     pub(crate) why: String,
     /// Times at which a load jumps [s], rising.
     pub switches: Vec<f64>,
+    /// The events that it watches for.
+    pub(crate) watches: Vec<watch::Watch>,
     /// Whether a member may meet another body.
     pub(crate) meets: bool,
 }
@@ -163,7 +166,13 @@ impl Plan {
             }
         }
         let mut left_out = Vec::new();
-        let mut groups = Grouping::new(&scene, &bodies, &mut left_out)?.groups(&bodies);
+        let watched = watch::watched(&scene, &bodies, options)?;
+        let mut grouping = Grouping::new(&scene, &bodies, &mut left_out)?;
+        for members in &watched {
+            grouping.join(members, &bodies);
+        }
+        let mut groups = grouping.groups(&bodies);
+        watch::bind(&watched, &bodies, &mut groups);
         let mut bodies = bodies;
         collisions(&scene, &mut bodies, &mut groups, options, &mut left_out)?;
         for group in &mut groups {
@@ -207,6 +216,16 @@ impl Plan {
     /// The scene it was compiled from.
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Refuses a plan that has no text, since it holds functions of the user.
+    ///
+    /// # Errors
+    /// Names the effect or the event that is code.
+    #[cfg(feature = "serde")]
+    pub fn check_writable(&self) -> Result<()> {
+        self.scene.check_writable()?;
+        self.options.check_writable()
     }
 
     /// The tolerance that the run shall keep, if one was asked for or none of tolerance and step.
@@ -271,6 +290,14 @@ impl Plan {
 
         let (spec, motions) = (&self.groups[group], motions.to_vec());
         if spec.method == Method::Exact {
+            // a closed form has no steps of its own: they follow the turning where events look along them
+            let control = match control {
+                Control::Error(limits) if !spec.watches.is_empty() => {
+                    let longest = limits.longest.min(self.first_step(limits.scales.time));
+                    Control::Error(Limits { longest, ..limits })
+                }
+                other => other,
+            };
             let motion = ClosedMotion::new(Time::new(t), self.starts(group, &charts, &motions));
             let problem = Group::<Any>::new(charts, motions, spec.bindings.clone());
             return Ok(Box::new(ClosedFlight::new(problem, motion, control)));
@@ -350,8 +377,7 @@ struct Grouping {
 
 impl Grouping {
     fn new(scene: &Scene, bodies: &[PlannedBody], left_out: &mut Vec<LeftOut>) -> Result<Self> {
-        let mut leader: Vec<usize> = (0..bodies.len()).collect();
-        let mut bindings = Vec::new();
+        let mut grouping = Self { leader: (0..bodies.len()).collect(), bindings: Vec::new() };
         for (index, effect) in scene.effects.iter().enumerate() {
             let place = scene.effect_place(index);
             effect.as_effect().validate(&place)?;
@@ -381,17 +407,22 @@ impl Grouping {
 
             // bodies that an effect sees together join one group; fixed ones stay out of it
             if together {
-                let moving: Vec<usize> = members.iter().copied().filter(|&i| !bodies[i].fixed).collect();
-                for pair in moving.windows(2) {
-                    let (a, b) = (leader[pair[0]], leader[pair[1]]);
-                    let (first, second) = (a.min(b), a.max(b));
-                    leader.iter_mut().filter(|l| **l == second).for_each(|l| *l = first);
-                }
+                grouping.join(&members, bodies);
             }
             let in_order = members.is_sorted();
-            bindings.push(Binding { effect: Arc::new(effect.clone()), members, in_order, together });
+            grouping.bindings.push(Binding { effect: Arc::new(effect.clone()), members, in_order, together });
         }
-        Ok(Self { leader, bindings })
+        Ok(grouping)
+    }
+
+    /// Makes one group of those bodies that move.
+    fn join(&mut self, members: &[usize], bodies: &[PlannedBody]) {
+        let moving: Vec<usize> = members.iter().copied().filter(|&i| !bodies[i].fixed).collect();
+        for pair in moving.windows(2) {
+            let (a, b) = (self.leader[pair[0]], self.leader[pair[1]]);
+            let (first, second) = (a.min(b), a.max(b));
+            self.leader.iter_mut().filter(|l| **l == second).for_each(|l| *l = first);
+        }
     }
 
     fn groups(&self, bodies: &[PlannedBody]) -> Vec<FlightGroup> {
@@ -431,7 +462,9 @@ impl Grouping {
             switches.sort_by(f64::total_cmp);
             switches.dedup();
             let (method, why) = (Method::Exact, String::new());
-            let mut group = FlightGroup { members, bindings, has_kinks: false, method, why, switches, meets: false };
+            let watches = Vec::new();
+            let mut group =
+                FlightGroup { members, bindings, has_kinks: false, method, why, switches, watches, meets: false };
             let (starts, mut kinks) = (group.members.iter().map(|&i| bodies[i].start).collect::<Vec<_>>(), Vec::new());
             group.kinks(&starts, &mut kinks);
             group.has_kinks = !kinks.is_empty();

@@ -73,7 +73,7 @@ impl Scene {
             Some(index) => {
                 Err(Error::refused(self.effect_place(index), "a user effect is code and cannot be written to a file"))
             }
-            None => Ok(()),
+            None => self.run.check_writable(),
         }
     }
 

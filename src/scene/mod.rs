@@ -8,11 +8,13 @@ use crate::effect::AnyEffect;
 use crate::error::{Error, Result};
 
 pub mod body;
+pub mod event;
 #[cfg(feature = "serde")]
 pub mod file;
 pub mod options;
 
 pub use body::{Body, Response};
+pub use event::{Direction, UserEvent};
 pub use options::{Finder, Orientation, Record, RunOptions, Span};
 
 /// Bodies, what acts on them, and how to run them.

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::event::UserEvent;
 pub use crate::contact::collision::Law;
 use crate::error::{Error, Result};
 pub use crate::impact::Finder;
@@ -126,6 +127,9 @@ pub struct RunOptions {
     pub eps: Option<f64>,
     /// What restitution means where friction couples the normal and the tangent.
     pub restitution_law: Law,
+    /// What is watched for.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub events: Vec<UserEvent>,
 }
 
 impl Default for RunOptions {
@@ -144,6 +148,7 @@ impl Default for RunOptions {
             finder: Finder::Guaranteed,
             eps: None,
             restitution_law: Law::Newton,
+            events: Vec::new(),
         }
     }
 }
@@ -238,6 +243,18 @@ impl RunOptions {
         self
     }
 
+    /// One more event that is watched for.
+    #[must_use]
+    pub fn event(mut self, event: UserEvent) -> Self {
+        self.events.push(event);
+        self
+    }
+
+    /// Whether an event may end the run.
+    pub(crate) fn may_end_early(&self) -> bool {
+        self.events.iter().any(|event| event.terminal)
+    }
+
     /// Whether nothing is said.
     #[cfg(feature = "serde")]
     pub(crate) fn is_default(&self) -> bool {
@@ -269,7 +286,16 @@ impl RunOptions {
         if let Some(span) = self.t_span {
             self.times(span.into())?;
         }
-        Ok(())
+        self.events.iter().try_for_each(UserEvent::validate)
+    }
+
+    /// Refuses options that have no text.
+    #[cfg(feature = "serde")]
+    pub(crate) fn check_writable(&self) -> Result<()> {
+        match self.events.iter().find(|event| matches!(event.measure, crate::measure::Measure::Function(_))) {
+            Some(event) => Err(Error::refused(event.place(), "a function is code and cannot be written to a file")),
+            None => Ok(()),
+        }
     }
 
     /// The times of the samples [s] of a run over `span`.

@@ -290,6 +290,8 @@ impl Simulation {
         self.events.push(Event {
             time: time.value,
             kind: EventKind::Bounce,
+            name: String::new(),
+            passage: None,
             bodies: touching.bodies,
             point,
             normal: touching.closest.normal,
@@ -338,6 +340,8 @@ impl Simulation {
         self.events.push(Event {
             time: time.value,
             kind: EventKind::Stick,
+            name: String::new(),
+            passage: None,
             bodies: [obstacle, body],
             point: closest.point_b,
             normal: closest.normal,
@@ -361,6 +365,8 @@ impl Simulation {
             self.events.push(Event {
                 time,
                 kind,
+                name: String::new(),
+                passage: None,
                 bodies: touching.bodies,
                 point: touching.closest.point_b,
                 normal: touching.closest.normal,

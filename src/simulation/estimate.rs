@@ -34,12 +34,14 @@ impl Comparison {
         let tolerance = tolerance.unwrap_or(f64::INFINITY);
         let mut comparison = Self { worst: 0.0, within_horizon: 0.0, horizon: fine.end() };
         let until = first_mismatch(fine, coarse);
-        let common = fine.times().len().min(coarse.times().len());
-        let common = common.min(fine.times().partition_point(|&t| t < until));
-        let mut lost = common < fine.times().len();
-        for sample in 0..common {
+        let (mut pairs, complete) = common_samples(fine, coarse);
+        let known = pairs.len();
+        pairs.retain(|&(sample, _)| fine.times()[sample] < until);
+        let complete = complete && pairs.len() == known;
+        let mut lost = !complete;
+        for &(sample, other) in &pairs {
             let error =
-                difference(fine.states(sample), coarse.states(sample), fine.report().length_scale) / divisor + rounding;
+                difference(fine.states(sample), coarse.states(other), fine.report().length_scale) / divisor + rounding;
             comparison.worst = comparison.worst.max(error);
             if error > tolerance && !lost {
                 lost = true;
@@ -48,9 +50,9 @@ impl Comparison {
                 comparison.within_horizon = comparison.worst;
             }
         }
-        if common < fine.times().len() {
+        if !complete {
             comparison.worst = f64::INFINITY;
-            comparison.horizon = comparison.horizon.min(fine.times()[common.saturating_sub(1)]);
+            comparison.horizon = comparison.horizon.min(fine.times()[pairs.len().saturating_sub(1)]);
         }
         comparison
     }
@@ -102,6 +104,19 @@ const SMALLEST: f64 = 1.0e-3;
 const EDGE: f64 = 2.0;
 /// How far the jumps of a bounce in two runs may differ for it to be the same [-].
 const ALIKE: f64 = 0.1;
+
+/// The samples that two runs have in common, and whether these are all. Where the same event ended both, the last
+/// samples are those of the event, each at its own time: the error of that time is part of the error there.
+fn common_samples(fine: &Trajectory, coarse: &Trajectory) -> (Vec<(usize, usize)>, bool) {
+    let [n, m] = [fine, coarse].map(|run| run.times().len());
+    let alike = fine.ended_by() == coarse.ended_by();
+    if fine.ended_by().is_none() || !alike {
+        let common = n.min(m) - usize::from(!alike).min(n.min(m));
+        return ((0..common).map(|i| (i, i)).collect(), alike && common == n);
+    }
+    let before = (n - 1).min(m - 1);
+    ((0..before).map(|i| (i, i)).chain([(n - 1, m - 1)]).collect(), true)
+}
 
 /// Largest difference between the states of a scene's bodies [-]: of positions over `scale` [m], of
 /// orientations in radians.

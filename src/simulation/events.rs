@@ -36,7 +36,11 @@ impl Simulation {
             return Ok(());
         }
         let start = self.time;
-        while let Some(&due) = self.near.due.peek().filter(|due| due.time.value <= to) {
+        while let Some(&due) = self.near.due.peek() {
+            let last = self.ended.as_ref().map_or(to, |(time, _)| time.min(to));
+            if due.time.value > last {
+                break;
+            }
             self.near.due.pop();
             match due.what {
                 What::Window { body, number } => {

@@ -28,6 +28,7 @@ pub(crate) mod estimate;
 mod events;
 mod lasting;
 mod near;
+mod observe;
 mod path;
 mod run;
 #[cfg(feature = "serde")]
@@ -69,6 +70,15 @@ pub enum Failure {
     /// The time of an impact cannot be resolved to ε.
     #[error("Stalled: no instant with a gap in 0..=ε = {0:e} m can be told; give a larger eps")]
     Stalled(f64),
+    /// The measure of a user's event gave up, or is not a number: the event, and why.
+    #[error("event {0}: {1}")]
+    UserEvent(String, String),
+    /// The measure of a user's event is too rough for its roots to be told apart.
+    #[error("UnresolvedEvent: event {0}: its measure must be a smooth function of the motion")]
+    UnresolvedEvent(String),
+    /// A user's event happens ever faster.
+    #[error("AccumulatingEvents: event {0} happens again and again without end, ever faster")]
+    AccumulatingEvents(String),
     /// The scene cannot be set up.
     #[error("{0}")]
     Refused(String),
@@ -80,7 +90,7 @@ pub enum Failure {
 impl Failure {
     /// Whether it is the caller's own doing, which no other step would mend.
     pub(crate) fn is_final(&self) -> bool {
-        matches!(self, Self::Interrupted | Self::Flight(FlightError::UserEffect(_)))
+        matches!(self, Self::Interrupted | Self::Flight(FlightError::UserEffect(_)) | Self::UserEvent(..))
     }
 }
 
@@ -125,6 +135,8 @@ struct Lane {
     /// Place of the lane's phase in the trajectory, and its next sample.
     phase: usize,
     cursor: usize,
+    /// What is known of the user's events, in the order of the group's.
+    watchers: Vec<observe::Watcher>,
 }
 
 /// A running scene.
@@ -150,6 +162,8 @@ pub struct Simulation {
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
+    /// When a user's event ends the run [s], and which.
+    ended: Option<(f64, String)>,
     iterations: u64,
     grain: Grain,
 }
@@ -185,6 +199,10 @@ impl Plan {
         if !t.is_finite() {
             return Err(Error::value("run", "start", "a finite time", t));
         }
+        if let Some(event) = self.options().events.iter().find(|event| event.terminal) {
+            let reason = "terminal: a simulation that is advanced by hand is ended by hand; its events tell when";
+            return Err(Error::refused(event.place(), reason));
+        }
         Simulation::new(
             Arc::new(self.clone()),
             Span { start: t, end: f64::INFINITY },
@@ -215,6 +233,7 @@ impl Simulation {
                 nodes: vec![span.start],
                 phase: group,
                 cursor: 0,
+                watchers: vec![observe::Watcher::default(); spec.watches.len()],
             });
         }
         let mut places = vec![None; plan.bodies().len()];
@@ -239,6 +258,7 @@ impl Simulation {
             bounces: Vec::new(),
             events: Vec::new(),
             heat: Vec::new(),
+            ended: None,
             iterations: 0,
             grain: Grain::FINE,
         })
@@ -329,7 +349,7 @@ impl Simulation {
         let spec = &plan.groups()[lane.group];
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        if spec.meets || plan.tolerance().is_some() || switch <= to {
+        if spec.meets || !spec.watches.is_empty() || plan.tolerance().is_some() || switch <= to {
             return Ok(());
         }
         let taken = lane.flight.advance_past(to, switch.min(self.end));
@@ -367,7 +387,7 @@ impl Simulation {
             (lane.kink, lane.corrections) = (None, 0);
         }
         let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
-        if (looked_at || spec.meets)
+        if (looked_at || spec.meets || !spec.watches.is_empty())
             && let Err(error) = lane.flight.interpolate()
         {
             return Err(self.failure(index, front, error.into()));
@@ -378,8 +398,9 @@ impl Simulation {
 
     /// Records the step that was taken, up to where an impact may have cut it.
     fn finish_step(&mut self, index: usize, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+        let Some(switch) = self.lanes[index].pending.take() else { return Ok(()) };
+        self.observe(index)?;
         let lane = &mut self.lanes[index];
-        let Some(switch) = lane.pending.take() else { return Ok(()) };
         let front = lane.flight.front();
         if let Some(run) = record.as_mut() {
             lane.nodes.push(front);

@@ -11,7 +11,7 @@ use crate::freedom::Scales;
 use crate::integrator::{Control, Limits, Mesh, Method};
 use crate::plan::Plan;
 use crate::scene::{RunOptions, Scene, Span};
-use crate::trajectory::Trajectory;
+use crate::trajectory::{EventKind, Trajectory};
 
 /// How far a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +100,7 @@ impl Plan {
         if !self.options().estimate {
             return Ok(run);
         }
-        if self.is_closed() && run.events.is_empty() {
+        if self.is_closed() && !has_impacts(&run) {
             run.report.error_estimate = Some(self.rounding(span));
             run.report.estimated_by = "rounding of the closed form".into();
             return Ok(run);
@@ -111,7 +111,7 @@ impl Plan {
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
-                let gain = if run.events.is_empty() { full_gain(self.method()) } else { EVENT_GAIN };
+                let gain = if has_impacts(&run) { EVENT_GAIN } else { full_gain(self.method()) };
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
                 run.report.error_estimate = Some(comparison.within_horizon);
                 run.report.estimated_by = "against a second run with twice the step".into();
@@ -172,7 +172,7 @@ impl Plan {
             run.report.seconds.estimate = before - began;
 
             // one run is enough where nobody asks for its error, or where rounding is all there is
-            let closed = self.is_closed() && run.events.is_empty();
+            let closed = self.is_closed() && !has_impacts(&run);
             if closed && estimates {
                 run.report.error_estimate = Some(self.rounding(span));
                 run.report.estimated_by = "rounding of the closed form".into();
@@ -195,7 +195,7 @@ impl Plan {
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
             let gain =
-                if run.events.is_empty() { observed_gain(self.method(), &coarser, &coarse, &run) } else { EVENT_GAIN };
+                if !has_impacts(&run) { observed_gain(self.method(), &coarser, &coarse, &run) } else { EVENT_GAIN };
             let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
             run.report.error_estimate = Some(comparison.within_horizon);
             run.report.estimated_by = if comparison.worst.is_finite() {
@@ -206,7 +206,7 @@ impl Plan {
             run.report.met = Some(comparison.worst <= tolerance);
             let next = pace.finer(self.method(), tolerance, comparison.worst);
             let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
-            let differs = comparison.worst.is_infinite() && !run.events.is_empty();
+            let differs = comparison.worst.is_infinite() && has_impacts(&run);
             mismatches += u32::from(differs);
             let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
             if comparison.worst <= tolerance || is_last {
@@ -328,13 +328,16 @@ impl Course<'_> {
             let mut tell = |done: f64| observer(Progress { fraction: part(meeting) * done, pass: number });
             broken = simulation.advance_meeting(span.end, &mut Some(&mut run), &mut tell).err();
         }
+        let until = |simulation: &Simulation, broken: &Option<SimulationError>| {
+            let stop = broken.as_ref().map_or(span.end, |error| error.time);
+            simulation.ended.as_ref().map_or(stop, |(time, _)| time.min(stop))
+        };
         for (k, &lane) in alone.iter().enumerate() {
             if broken.as_ref().is_some_and(|error| error.kind == Failure::Interrupted) {
                 break;
             }
-            let to = broken.as_ref().map_or(span.end, |error| error.time);
             let mut ended = Ok(());
-            while ended.is_ok() && simulation.lanes[lane].flight.front() < to {
+            while ended.is_ok() && simulation.lanes[lane].flight.front() < until(&simulation, &broken) {
                 ended = simulation.step_lane(lane, &mut Some(&mut run));
                 let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
                 let progress = Progress { fraction: part(meeting + k) + part(1) * done, pass: number };
@@ -349,12 +352,15 @@ impl Course<'_> {
                 broken = Some(error);
             }
         }
-        let to = broken.as_ref().map_or(span.end, |error| error.time);
         for lane in 0..lanes {
-            // a step that was still open where a run broke off is known up to there
-            if simulation.finish_step(lane, &mut Some(&mut run)).is_err() {
+            // a step that was still open where a run ends is known up to there
+            if let Err(error) = simulation.finish_step(lane, &mut Some(&mut run)) {
+                if broken.as_ref().is_none_or(|other| error.time < other.time) {
+                    broken = Some(error);
+                }
                 continue;
             }
+            let to = until(&simulation, &broken);
             let lane = &mut simulation.lanes[lane];
             let mut motions = lane.motions.clone();
             lane.flight.at(lane.flight.front(), &mut motions);
@@ -362,24 +368,34 @@ impl Course<'_> {
         }
 
         run.report.counts = simulation.counts();
-        run.report.impacts = simulation.events.len() as u64;
+        run.report.impacts =
+            simulation.events.iter().filter(|e| matches!(e.kind, EventKind::Bounce | EventKind::Stick)).count() as u64;
         run.report.impact_iterations = simulation.iterations;
         run.heat = simulation.heat;
         run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
-        match broken {
+        // an event that ends the run goes before what broke off behind it
+        let early = simulation.ended.filter(|(time, _)| broken.as_ref().is_none_or(|error| *time <= error.time));
+        match broken.filter(|_| early.is_none()) {
             None => {
                 run.end = span.end;
+                run.close(early);
                 Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
             }
             Some(error) => {
                 run.events.retain(|event| event.time <= error.time);
                 run.cut(error.time);
+                run.close(None);
                 Err(SimulationError { trajectory: Some(Box::new(run)), ..error })
             }
         }
     }
+}
+
+/// Whether bodies have touched.
+fn has_impacts(run: &Trajectory) -> bool {
+    run.events.iter().any(|event| event.kind != EventKind::User)
 }
 
 /// How many times smaller the error is at half the step, where the method shows its order [-].

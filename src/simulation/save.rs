@@ -46,6 +46,8 @@ struct SavedLane {
     held: Vec<usize>,
     led: Option<usize>,
     motions: Vec<BodyMotion>,
+    #[serde(default)]
+    watchers: Vec<super::observe::Watcher>,
 }
 
 /// Version of the file's layout.
@@ -57,7 +59,7 @@ impl Simulation {
     /// # Errors
     /// A scene with user effects, and a file that cannot be written.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
-        self.plan.scene().check_writable()?;
+        self.plan.check_writable()?;
         let lanes = self.lanes.iter().map(|lane| SavedLane {
             front: lane.flight.saved_front(),
             segment: lane.flight.segment().clone(),
@@ -69,6 +71,7 @@ impl Simulation {
             held: lane.held.clone(),
             led: lane.led,
             motions: lane.motions.clone(),
+            watchers: lane.watchers.clone(),
         });
         let saved = Saved {
             bryla: VERSION.to_owned(),
@@ -134,7 +137,7 @@ impl Lane {
         step: f64,
         saved: SavedLane,
     ) -> Option<Result<()>> {
-        if saved.motions.len() != self.motions.len() {
+        if saved.motions.len() != self.motions.len() || saved.watchers.len() != self.watchers.len() {
             return None;
         }
         self.charts = match plan.charts(group, &saved.held) {
@@ -158,6 +161,7 @@ impl Lane {
         (self.number, self.pending) = (saved.number, saved.pending);
         (self.held, self.led) = (saved.held, saved.led);
         self.motions = saved.motions;
+        self.watchers = saved.watchers;
         Some(Ok(()))
     }
 }

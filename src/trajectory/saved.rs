@@ -27,6 +27,7 @@ struct Saved<'a> {
     heat: Cow<'a, [Heat]>,
     report: Cow<'a, Report>,
     end: f64,
+    ended_by: Option<Cow<'a, str>>,
 }
 
 impl Saved<'_> {
@@ -49,7 +50,7 @@ impl Saved<'_> {
 impl Serialize for Trajectory {
     /// Refuses the trajectory of a scene with user effects, which are code.
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.plan.scene().check_writable().map_err(S::Error::custom)?;
+        self.plan.check_writable().map_err(S::Error::custom)?;
         let saved = Saved {
             scene: Cow::Borrowed(self.plan.scene()),
             options: Cow::Borrowed(self.plan.options()),
@@ -60,6 +61,7 @@ impl Serialize for Trajectory {
             heat: Cow::Borrowed(&self.heat),
             report: Cow::Borrowed(&self.report),
             end: self.end,
+            ended_by: self.ended_by.as_deref().map(Cow::Borrowed),
         };
         saved.serialize(serializer)
     }
@@ -82,6 +84,7 @@ impl<'de> Deserialize<'de> for Trajectory {
             heat: saved.heat.into_owned(),
             report: saved.report.into_owned(),
             end: saved.end,
+            ended_by: saved.ended_by.map(Cow::into_owned),
         })
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// The list. Modules of one layer stand in order too: each may use those to its left.
 const LAYERS: &[&[&str]] = &[
     &["text", "error", "tolerance", "math"],
-    &["state"],
+    &["state", "measure"],
     &["mass"],
     &["shape"],
     &["effect", "freedom", "integrator", "closest"],

@@ -7,6 +7,7 @@ mod accuracy;
 mod bad_input;
 mod collision;
 mod effects;
+mod events;
 mod files;
 mod freedoms;
 mod impacts;

@@ -178,6 +178,25 @@ fn equal_boxes_that_kiss() {
     assert!(found.signed_distance.abs() < 1e-15, "{found:?}");
 }
 
+/// fcl#399: a block whose side all but lies in a board's; "the origin is outside of the polytope".
+#[test]
+fn a_block_along_a_board() {
+    let (c, s) = (0.099432387353076273628, 0.99504432079443971837);
+    let block = printed_box(
+        [0.23768037557601928711, 0.15702305734157562256, 0.25],
+        [[-c, s, 0.0, 0.29526406526565551758], [-s, -c, 0.0, -0.013230856508016586304], [0.0, 0.0, 1.0, 0.0]],
+    );
+    let (c, s) = (0.99506598442099225554, 0.099215354901756730444);
+    let board = printed_box(
+        [0.010000000000000000208, 0.78165709972381591797, 0.25],
+        [[c, s, 0.0, 0.22759585694545214629], [-s, c, 0.0, 0.14974093549228112421], [0.0, 0.0, 1.0, 0.0]],
+    );
+    // along the thin side of the board: the distance of the centres less ½ 0.01 + ½ 0.157 + ½ 0.238 · 2.2e-4
+    let found = proved(&block, &board);
+    assert_eq!(found.state, State::Overlapping);
+    assert!((found.signed_distance + 3.38106439992e-5).abs() < 1e-15, "{found:?}");
+}
+
 /// fcl#508: boxes apart along y alone, where a distance of 3 came out as 3.16.
 #[test]
 fn boxes_apart_along_one_axis() {

@@ -43,6 +43,18 @@ fn a_pole_and_a_ball() {
     assert!((found.signed_distance - (libm::hypot(x - 0.6, y) - 0.085)).abs() < 1e-15, "{found:?}");
 }
 
+/// fcl#408: a ball that touches the edge of a face, to rounding; "the origin is outside of the polytope".
+#[test]
+fn a_ball_that_touches_a_box() {
+    let (ball, cube) = (Sphere::new(0.06).into(), Cuboid::new([0.05; 3]).into());
+    let ball_pose =
+        Pose::new([1.7855056639081962376e-10, 0.039999999999999993894, 0.33000000000000012657], [1.0, 0.0, 0.0, 0.0]);
+    let cube_pose = Pose::new([0.05, 0.15, 0.35], [1.0, 0.0, 0.0, 0.0]);
+    // the face's plane is at y = 0.1, and the ball's centre over the face by 2e-10 m
+    let found = proved(&ball, &ball_pose, &cube, &cube_pose);
+    assert!(found.signed_distance.abs() < 1e-16 * 4.0, "{found:?}");
+}
+
 /// parry#79: a cylinder whose cap touches a triangle's plane, its rim over the triangle's side.
 #[test]
 fn a_cylinder_on_a_triangle() {
