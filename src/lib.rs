@@ -28,8 +28,9 @@
 //!
 //! # What it does not do
 //!
-//! Contact between moving bodies, friction, rest and stacks: such scenes are refused when they are
-//! compiled, or end in a named error that carries the trajectory so far. Bodies are rigid.
+//! Bodies that merge, bodies moved along a prescribed motion, contact of bodies of fewer freedoms: such scenes
+//! are refused when they are compiled. Large piles are slow. Where a contact cannot be followed, a named error
+//! carries the trajectory so far. Bodies are rigid.
 //!
 //! # Map
 //!

@@ -23,6 +23,10 @@ pub enum EventKind {
     Bounce,
     /// A body came to rest on another.
     Stick,
+    /// Bodies stay in contact from here on: they slide, roll or tip on each other.
+    Contact,
+    /// Bodies rest on each other from here on, in equilibrium, until something hits them or a load changes.
+    Rest,
     /// A measure that the run watched met its value.
     User,
     /// The state turned a load on or off.
@@ -35,6 +39,8 @@ impl EventKind {
         match self {
             Self::Bounce => "bounce",
             Self::Stick => "stick",
+            Self::Contact => "contact",
+            Self::Rest => "rest",
             Self::User => "user",
             Self::Switch => "switch",
         }
@@ -56,13 +62,13 @@ pub struct Event {
     /// The two bodies a and b, as places in the scene; the first and the last of a user's event or a switch, to
     /// which nothing of the below applies.
     pub bodies: [usize; 2],
-    /// Where the impulse acts [m]: the point of contact, or the centroid of several.
+    /// Where the impulse acts [m]: the point of contact, or the centroid of several, weighted by their impulses.
     pub point: Vector3,
     /// Unit normal from a to b.
     pub normal: Vector3,
     /// Impulse on b [N·s]; −1 times that on a.
     pub impulse: Vector3,
-    /// What of b touched, in words.
+    /// Which features of a and b touched, in words.
     pub features: String,
     /// Rounds that the finder took to locate it.
     pub iterations: u32,
@@ -70,6 +76,10 @@ pub struct Event {
     pub velocity: [Vector3; 2],
     /// Angular velocity of b before and after [rad/s].
     pub angular_velocity: [Vector3; 2],
+    /// Velocity of a's centre of mass before and after [m/s].
+    pub other_velocity: [Vector3; 2],
+    /// Angular velocity of a before and after [rad/s].
+    pub other_angular_velocity: [Vector3; 2],
     /// Kinetic energy lost [J].
     pub energy_lost: f64,
 }
@@ -91,8 +101,47 @@ impl Event {
             iterations: 0,
             velocity: [nothing; 2],
             angular_velocity: [nothing; 2],
+            other_velocity: [nothing; 2],
+            other_angular_velocity: [nothing; 2],
             energy_lost: 0.0,
         }
+    }
+}
+
+/// Heat of contacts outside of events: of friction over a time, of what gentle impacts take at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Heat {
+    /// When it begins [s].
+    pub(crate) from: f64,
+    /// When it ends [s].
+    pub(crate) to: f64,
+    /// How much [J].
+    pub(crate) joules: f64,
+    /// Power at both ends [W].
+    pub(crate) power: [f64; 2],
+}
+
+impl Heat {
+    /// Heat of an instant [s], [J].
+    pub(crate) fn at(time: f64, joules: f64) -> Self {
+        Self { from: time, to: time, joules, power: [0.0; 2] }
+    }
+
+    /// Ends it at a time within it [s], by what has come till then.
+    pub(crate) fn cut(&mut self, t: f64) {
+        let joules = self.until(t);
+        let near = 1e-3 * (self.to - self.from);
+        let last = (self.until(t) - self.until(t - near)) / near;
+        *self = Self { to: t, joules, power: [self.power[0], last], ..*self };
+    }
+
+    /// What has come by a time within it [s]: the cubic through both ends and their powers [J].
+    fn until(&self, t: f64) -> f64 {
+        let h = self.to - self.from;
+        let s = ((t - self.from) / h).clamp(0.0, 1.0);
+        let [p0, p1] = self.power.map(|p| h * p);
+        s * (p0 + s * (3.0 * self.joules - 2.0 * p0 - p1 + s * (p0 + p1 - 2.0 * self.joules)))
     }
 }
 
@@ -184,6 +233,7 @@ pub struct Trajectory {
     pub(crate) states: Vec<BodyState>,
     pub(crate) phases: Vec<Phase>,
     pub(crate) events: Vec<Event>,
+    pub(crate) heat: Vec<Heat>,
     pub(crate) report: Report,
     /// How far the motion is known [s].
     pub(crate) end: f64,
@@ -198,7 +248,17 @@ impl Trajectory {
         let states = rest.iter().cycle().take(times.len() * rest.len()).copied().collect();
         let end = times.first().copied().unwrap_or_default();
         let report = Report::new(&plan);
-        Self { plan, times, states, phases: Vec::new(), events: Vec::new(), report, end, ended_by: None }
+        Self {
+            plan,
+            times,
+            states,
+            phases: Vec::new(),
+            events: Vec::new(),
+            heat: Vec::new(),
+            report,
+            end,
+            ended_by: None,
+        }
     }
 
     /// Whether a step up to `end` [s] is looked into: its motion is kept, or holds the sample at `cursor`.
@@ -436,6 +496,19 @@ impl Trajectory {
         for event in &self.events {
             let after = self.times.partition_point(|&t| t < event.time);
             energy.dissipated[after..].iter_mut().for_each(|d| *d += event.energy_lost);
+        }
+
+        // friction's heat, within a step in proportion to time
+        let longest = self.heat.iter().map(|heat| heat.to - heat.from).fold(0.0, f64::max);
+        let (mut next, mut done) = (0, 0.0);
+        for (sample, &t) in self.times.iter().enumerate() {
+            while let Some(heat) = self.heat.get(next).filter(|heat| heat.to <= t) {
+                done += heat.joules;
+                next += 1;
+            }
+            let open = self.heat[next..].iter().take_while(|heat| heat.to <= t + longest);
+            let part = open.filter(|heat| heat.from < t).map(|heat| heat.until(t));
+            energy.dissipated[sample] += done + part.sum::<f64>();
         }
         Ok(energy)
     }

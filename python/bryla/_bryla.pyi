@@ -42,7 +42,8 @@ _Response: TypeAlias = Literal["bounce", "stick"]
 _Frame: TypeAlias = Literal["world", "body"]
 _Record: TypeAlias = Literal["dense", "samples", "end"]
 _Orientation: TypeAlias = Literal["quaternion", "matrix"]
-_Finder: TypeAlias = Literal["bisection", "secant"]
+_Finder: TypeAlias = Literal["bisection", "secant", "guaranteed"]
+_RestitutionLaw: TypeAlias = Literal["newton", "poisson", "stronge"]
 _Format: TypeAlias = Literal["toml", "json"]
 _Collidable: TypeAlias = _Shape | ConvexPolyhedron | Collider
 _Accuracy: TypeAlias = Literal["exact", "yes_no"] | float
@@ -1323,6 +1324,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        restitution_law: _RestitutionLaw | None = None,
         events: Iterable[UserEvent] | None = None,
     ) -> Plan:
         """Checks the scene and keeps what it calls for: a Plan. The options are those of `run`."""
@@ -1345,6 +1347,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        restitution_law: _RestitutionLaw | None = None,
         events: Iterable[UserEvent] | None = None,
         progress: bool = False,
     ) -> Trajectory:
@@ -1378,10 +1381,13 @@ class Scene:
             How methods in world axes write the orientation; "quaternion" by default.
         projection : bool, optional
             Whether orientations are put back on their sphere after each step (default).
-        finder : {"secant", "bisection"}, optional
-            How the time of contact is found; "secant" by default.
+        finder : {"guaranteed", "secant", "bisection"}, optional
+            How the time of contact is found; "guaranteed" by default.
         eps : float, optional
             Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
+        restitution_law : {"newton", "poisson", "stronge"}, optional
+            What comes back where friction couples normal and tangent: the normal velocity (default), the
+            impulse of compression, or its work.
         events : list of UserEvent, optional
             What is watched for.
         progress : bool
@@ -1413,6 +1419,7 @@ class Scene:
         projection: bool | None = None,
         finder: _Finder | None = None,
         eps: _Number | None = None,
+        restitution_law: _RestitutionLaw | None = None,
         progress: bool = False,
     ) -> ComparisonTable:
         """What accuracy costs: error against time for several methods, steps and tolerances, a ComparisonTable.
@@ -1432,7 +1439,7 @@ class Scene:
             not estimated in these runs, which costs extra.
         repeats : int
             How often each run is timed; the least and the middle time are kept.
-        length_scale, orientation, projection, finder, eps
+        length_scale, orientation, projection, finder, eps, restitution_law
             As in run.
         progress : bool
             Whether a progress line is shown on a terminal.
@@ -1697,7 +1704,7 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What: "bounce", "stick", "user" or "switch"."""
+        """What: "bounce", "stick", "contact" (they stay in contact and move), "rest", "user" or "switch"."""
 
     @property
     def name(self) -> str:
@@ -1729,7 +1736,7 @@ class Event:
 
     @property
     def features(self) -> str:
-        """What of the second body touched, in words."""
+        """Which features of the two bodies touched, in words."""
 
     @property
     def iterations(self) -> int:

@@ -1,5 +1,6 @@
 //! Conversion between Python's values and plain data; all of it is here.
 
+use bryla::contact::collision::Law;
 use bryla::effect::Frame;
 use bryla::math::{Matrix3, Vector3};
 use bryla::{Direction, Finder, Orientation, Record, Response, Schedule};
@@ -196,6 +197,7 @@ names! {
     Record: "run", "record";
     Orientation: "run", "orientation";
     Finder: "run", "finder";
+    Law: "run", "restitution_law";
     Direction: "event", "direction";
 }
 

@@ -36,6 +36,7 @@ pub(crate) fn run_options(scene: &RunOptions, function: &str, given: Option<&Bou
             "projection" => options.projection = read(&name, &value)?,
             "finder" => options.finder = Plain::from_python(read(&name, &value)?)?,
             "eps" => options.eps = Some(read(&name, &value)?),
+            "restitution_law" => options.restitution_law = Plain::from_python(read(&name, &value)?)?,
             "events" => options.events = events(&value)?,
             _ => {
                 let message = format!("{function}() got an unexpected keyword argument '{name}'");

@@ -90,7 +90,7 @@ impl PyScene {
     /// Checks the scene and keeps what it calls for: a Plan. The options are those of `run`.
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, events=None)"
+        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None)"
     )]
     fn compile(&self, options: Option<&Bound<'_, PyDict>>) -> Result<PyPlan> {
         let options = run_options(&self.0.run, "compile", options)?;
@@ -133,10 +133,13 @@ impl PyScene {
     ///     How methods in world axes write the orientation; "quaternion" by default.
     /// projection : bool, optional
     ///     Whether orientations are put back on their sphere after each step (default).
-    /// finder : {"secant", "bisection"}, optional
-    ///     How the time of contact is found; "secant" by default.
+    /// finder : {"guaranteed", "secant", "bisection"}, optional
+    ///     How the time of contact is found; "guaranteed" by default.
     /// eps : float, optional
     ///     Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
+    /// restitution_law : {"newton", "poisson", "stronge"}, optional
+    ///     What comes back where friction couples normal and tangent: the normal velocity (default), the
+    ///     impulse of compression, or its work.
     /// events : list of UserEvent, optional
     ///     What is watched for.
     /// progress : bool
@@ -155,7 +158,7 @@ impl PyScene {
     ///     The tolerance is not met over the whole span; report.horizon says up to when it is.
     #[pyo3(
         signature = (t_span=None, *, progress=false, **options),
-        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, events=None, progress=False)"
+        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None, progress=False)"
     )]
     fn run(
         &self,
@@ -186,13 +189,13 @@ impl PyScene {
     ///     not estimated in these runs, which costs extra.
     /// repeats : int
     ///     How often each run is timed; the least and the middle time are kept.
-    /// length_scale, orientation, projection, finder, eps
+    /// length_scale, orientation, projection, finder, eps, restitution_law
     ///     As in run.
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     #[pyo3(
         signature = (t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, progress=false, **options),
-        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, progress=False)"
+        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "those of the core, and two of Python")]
     fn compare(

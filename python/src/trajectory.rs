@@ -482,7 +482,7 @@ impl PyEvent {
         self.event.time
     }
 
-    /// What: "bounce", "stick", "user" or "switch".
+    /// What: "bounce", "stick", "contact" (they stay in contact and move), "rest", "user" or "switch".
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.name()

@@ -195,7 +195,7 @@ def test_wrong_types_are_type_errors_that_name_the_argument(make, message):
         (lambda: die_scene().run((0, 1), tolerance=1e-9, step=1), "run: tolerance and step exclude each other"),
         (lambda: die_scene().run((0, 1), method="rk5"), "run: method must be one of"),
         (lambda: die_scene().run((0, 1), record="all"), 'run: record must be one of dense, samples, end, got "all"'),
-        (lambda: die_scene().run((0, 1), finder="newton"), "run: finder must be one of bisection, secant"),
+        (lambda: die_scene().run((0, 1), finder="newton"), "run: finder must be one of bisection, secant, guaranteed"),
         (lambda: die_scene().run((0, 1), orientation="angles"), "run: orientation must be one of quaternion, matrix"),
         (lambda: die_scene().run((0, 1), tolerance=1e-20), "what rounding leaves of this scene"),
         (lambda: die_scene().compile().start(), "a simulation that is advanced by hand needs method and step"),

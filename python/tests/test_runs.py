@@ -229,18 +229,47 @@ def test_a_motion_tells_its_quantities(die):
     np.testing.assert_allclose(motion.velocity_at((1, 0, 0.5)), np.add((1, 0, 0), np.cross(w, (1, 0, 0))), rtol=8 * EPS)
 
 
-def test_a_run_that_breaks_off_keeps_what_it_computed():
+def test_a_block_that_falls_flat_rests_where_it_fell():
     scene = bryla.Scene()
     scene.add_effect(bryla.UniformGravity(G))
     scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1), 0), fixed=True))
     scene.add(bryla.Body("block", bryla.Cuboid((0.1, 0.1, 0.1)), density=1, position=(0, 0, 0.2)))
-    with pytest.raises(bryla.SimulationError, match="AccumulatingImpacts") as caught:
+    run = scene.run((0, 1), method="rk4", step=1e-3)
+    assert [event.kind for event in run.events] == ["bounce", "rest"]
+    # it falls by 0.1 m
+    assert run.events[-1].time == pytest.approx(np.sqrt(0.2 / 9.81), abs=1e-9)
+    np.testing.assert_array_equal(run["block"].velocity[-1], 0)
+    np.testing.assert_allclose(run["block"].position[-1], (0, 0, 0.1), atol=1e-12)
+
+
+def test_friction_brings_a_box_to_a_stop():
+    scene = bryla.Scene()
+    scene.add_effect(bryla.UniformGravity((0, 0, -10)))
+    scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1), 0), fixed=True, friction=0.3))
+    box = bryla.Cuboid((0.1, 0.1, 0.1))
+    scene.add(bryla.Body("box", box, mass=1, position=(0, 0, 0.1), velocity=(2, 0, 0), friction=0.3))
+    run = scene.run((0, 1), tolerance=1e-9, restitution_law="poisson")
+    assert [event.kind for event in run.events] == ["contact", "rest"]
+    # v / (mu g) and v**2 / (2 mu g)
+    assert run.events[-1].time == pytest.approx(2 / 3, abs=1e-9)
+    assert run["box"].position[-1][0] == pytest.approx(2 / 3, abs=1e-9)
+    assert run.report.met
+
+
+def test_a_run_that_breaks_off_keeps_what_it_computed():
+    # an ellipsoid that rolls, which no formula follows
+    scene = bryla.Scene()
+    scene.add_effect(bryla.UniformGravity(G))
+    scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1), 0), fixed=True))
+    egg = bryla.Ellipsoid((0.1, 0.1, 0.15))
+    scene.add(bryla.Body("egg", egg, density=1, position=(0, 0, 0.2), angular_velocity=(0, 1, 0)))
+    with pytest.raises(bryla.SimulationError, match="LastingContact") as caught:
         scene.run((0, 1), method="rk4", step=1e-3)
     error = caught.value
     assert isinstance(error, RuntimeError)
-    assert error.bodies == ["block", "floor"]
-    # it falls by 0.1 m
-    assert error.time == pytest.approx(np.sqrt(0.2 / 9.81), abs=2e-3)
+    assert error.bodies == ["floor", "egg"]
+    # it falls by some 0.05 m
+    assert error.time == pytest.approx(np.sqrt(0.1 / 9.81), abs=5e-3)
     assert error.trajectory.end == error.time
     assert error.trajectory.t[-1] <= error.time
     back = pickle.loads(pickle.dumps(error))

@@ -51,4 +51,6 @@ catalogue! {
     lander,
     /// A die thrown on a table; the span ends before its bounces accumulate.
     bouncing_die,
+    /// Five dice thrown on a table with walls: they hit each other, roll out, and come to rest.
+    dice,
 }

@@ -48,6 +48,7 @@ mod round;
 mod round_pair;
 mod search;
 mod simplex;
+mod support;
 mod vector;
 pub mod vertex_plane;
 mod walk;
@@ -55,6 +56,7 @@ mod walk;
 pub use answer::{Accuracy, ClosestFeatures, Feature, Rung, State};
 pub use cache::PairCache;
 pub use collider::{Collidable, Collider};
+pub(crate) use support::Piece;
 
 use crate::error::{Error, Result};
 use crate::math::{Pose, Vector3, quaternion};

@@ -116,6 +116,17 @@ impl Placement {
     pub(super) fn point(&self, p: [f64; 3]) -> Vector3 {
         (rotate(&self.rows, &Vec3(p)) + self.position).to_vector()
     }
+
+    /// A direction of the piece in the compound's axes.
+    pub(super) fn vector(&self, v: [f64; 3]) -> Vector3 {
+        rotate(&self.rows, &Vec3(v)).to_vector()
+    }
+
+    /// The rotation from the piece to the compound, as rows.
+    #[inline]
+    pub(super) fn turn(&self) -> &[Vec3<f64>; 3] {
+        &self.rows
+    }
 }
 
 impl Stand<'_> {

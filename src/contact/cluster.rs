@@ -200,6 +200,11 @@ impl Contact {
         Self { a, b, point, normals: vec![normal], friction: 0.0, restitution: 0.0 }
     }
 
+    /// Velocity of b relative to a at the point, for these motions of the bodies [m/s].
+    pub fn slip(&self, motions: &[BodyMotion]) -> Vector3 {
+        motions[self.b].velocity_at(&self.point) - motions[self.a].velocity_at(&self.point)
+    }
+
     /// Sets the normals.
     #[must_use]
     pub fn normals(self, normals: impl Into<Vec<Vector3>>) -> Self {

@@ -30,6 +30,8 @@ use crate::math::Vector3;
 
 /// What restitution means where friction couples the normal and the tangent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Law {
     /// The normal velocity comes back: `u_n⁺ = −e u_n⁻` (Newton 1687).
     Newton,

@@ -15,6 +15,7 @@
 //! | [`stick`] | merging bodies into one |
 //! | [`accumulation`] | when bounces have no end but a last instant |
 //! | [`rest`] | forces of contacts that last |
+//! | [`anchor`] | where a contact that lasts goes when its bodies move |
 //! | [`solver`] | the problems beneath, each answer with its residual |
 //! | [`bounce`] | the formula of one point against a fixed plane |
 //!
@@ -28,7 +29,9 @@
 //!    is held.
 
 pub mod accumulation;
+pub mod anchor;
 pub mod bounce;
+pub mod broad_phase;
 pub mod cluster;
 pub mod collision;
 mod friction;
@@ -72,15 +75,22 @@ impl Response {
 pub struct Material {
     /// Coefficient of restitution e [-].
     pub restitution: f64,
+    /// Coefficient of friction μ [-].
+    pub friction: f64,
     /// Bounce or stick.
     pub response: Response,
 }
 
 impl Material {
-    /// The material of a pair: the larger restitution, and sticking if either sticks.
-    pub fn of_pair(a: (f64, Response), b: (f64, Response)) -> Self {
-        let sticks = a.1 == Response::Stick || b.1 == Response::Stick;
-        Self { restitution: a.0.max(b.0), response: if sticks { Response::Stick } else { Response::Bounce } }
+    /// The material of a pair, each given by restitution, friction and response: the larger restitution, the
+    /// geometric mean of the frictions, and sticking if either sticks.
+    pub fn of_pair([a, b]: [(f64, f64, Response); 2]) -> Self {
+        let sticks = a.2 == Response::Stick || b.2 == Response::Stick;
+        Self {
+            restitution: a.0.max(b.0),
+            friction: (a.1 * b.1).sqrt(),
+            response: if sticks { Response::Stick } else { Response::Bounce },
+        }
     }
 }
 

@@ -26,9 +26,10 @@
 //! the named error [`ClusterError::Inconsistent`], and the way out is an impact without collision:
 //! [`collide`](super::collision::collide) on the same contacts.
 
-use super::cluster::{ClusterBody, ClusterError, Contact, Frame, Velocity, check, relative};
+use super::cluster::{ClusterBody, ClusterError, Contact, Frame, Row, Velocity, check, matrix, relative};
 use super::problem::{Scaled, choose_normals};
 use super::solver::Coulomb;
+use super::solver::dense::least_norm;
 use crate::math::Vector3;
 use crate::state::Load;
 
@@ -161,6 +162,41 @@ pub fn rest(
     supports: &[Support],
     slip_speed: f64,
 ) -> Result<Rest, ClusterError> {
+    solve(bodies, free, supports, |_, slip| {
+        let speed = libm::hypot(slip[0], slip[1]);
+        (speed > slip_speed && speed > 0.0).then(|| slip.map(|s| s / speed))
+    })
+}
+
+/// The same, where it is known which contacts slide and along which direction, world axes; `None` sticks, or is
+/// about to slide. At an instant within a step whose ends slide one way, it is this way that friction opposes.
+///
+/// # Errors
+/// As [`rest`].
+pub fn rest_sliding(
+    bodies: &[ClusterBody],
+    free: &[Acceleration],
+    supports: &[Support],
+    sliding: &[Option<Vector3>],
+) -> Result<Rest, ClusterError> {
+    if sliding.len() != supports.len() {
+        return Err(ClusterError::Lengths { bodies: supports.len(), accelerations: sliding.len() });
+    }
+    let frames: Vec<Frame> = supports.iter().map(|s| Frame::new(&s.contact.normals[0])).collect();
+    solve(bodies, free, supports, |i, _| {
+        let [_, first, second] = frames[i].components(&sliding[i]?);
+        let length = libm::hypot(first, second);
+        (length > 0.0).then(|| [first / length, second / length])
+    })
+}
+
+/// The problem, with the direction of sliding of each contact as its place and its slip in the tangents tell.
+fn solve(
+    bodies: &[ClusterBody],
+    free: &[Acceleration],
+    supports: &[Support],
+    sliding: impl Fn(usize, [f64; 2]) -> Option<[f64; 2]>,
+) -> Result<Rest, ClusterError> {
     let contacts: Vec<Contact> = supports.iter().map(|s| s.contact.clone()).collect();
     check(bodies, &contacts)?;
     if free.len() != bodies.len() {
@@ -196,8 +232,7 @@ pub fn rest(
         .iter()
         .map(|&i| {
             let [_, first, second] = frames[i].components(&slips[i]);
-            let speed = libm::hypot(first, second);
-            (speed > slip_speed && speed > 0.0).then(|| [first / speed, second / speed])
+            sliding(i, [first, second])
         })
         .collect();
     let floor = vec![0.0; active.len()];
@@ -236,4 +271,27 @@ pub fn rest(
         }
     }
     Ok(Rest { holds, forces, normals, accelerations, residual: found.residual })
+}
+
+/// The smallest changes of velocity, in the bodies' own inertia, by impulses along rows (a contact, a unit
+/// direction on b) after which the relative velocities along the rows have changed by these [m/s]. Of rows that
+/// contradict each other the change is the least-squares one.
+pub fn align(
+    bodies: &[ClusterBody],
+    contacts: &[Contact],
+    rows: &[(usize, Vector3)],
+    changes: &[f64],
+) -> Vec<Velocity> {
+    let problem: Vec<Row> = rows.iter().map(|&(contact, direction)| Row { contact, direction }).collect();
+    let found = least_norm(&matrix(bodies, contacts, &problem), changes);
+    let mut moved = vec![Velocity { linear: Vector3::zeros(), angular: Vector3::zeros() }; bodies.len()];
+    for ((contact, direction), p) in rows.iter().zip(&found) {
+        let contact = &contacts[*contact];
+        for (k, sign) in [(contact.a, -1.0), (contact.b, 1.0)] {
+            let change = bodies[k].mobility.answer(&(sign * *p * direction), &bodies[k].lever(&contact.point));
+            moved[k].linear += change.linear;
+            moved[k].angular += change.angular;
+        }
+    }
+    moved
 }

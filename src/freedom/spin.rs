@@ -109,6 +109,11 @@ impl Spin {
         self.orientation_dimension() + 3
     }
 
+    /// The quaternion from principal to body axes, where q is written in the former.
+    pub(crate) fn axes(&self) -> Option<Quaternion> {
+        self.axes.as_ref().filter(|_| self.form == Form::Body).map(|(axes, _)| *axes)
+    }
+
     /// From the orientation and the angular momentum about the point, world axes.
     pub(super) fn encode(&self, q: &Quaternion, momentum: &Vector3, y: &mut [f64]) {
         match self.form {

@@ -388,14 +388,14 @@
 //! where it has left. Usually polyhedra meet polyhedra, and the same search runs on the distance of the
 //! pair.
 //!
-//! What the code has today is a body against a fixed plane, the lecture's first collision. Over a plane
-//! only the lowest vertex counts, so such a body need not be convex; a ball has one lowest point.
+//! The default goes beyond: the **guaranteed** finder proves every piece of the way free, from bounds of the
+//! motions over it, and takes the secant as a proposal only. It misses nothing, however fast a body spins.
 //!
 //! | | in code |
 //! |---|---|
 //! | height over the plane | [`Collider::gap`](crate::closest::vertex_plane::Collider::gap) |
 //! | time of contact | [`find_impact`](crate::impact::find_impact); every way to end: [`Outcome`](crate::impact::Outcome) |
-//! | bisection, secant | [`Finder::Bisection`](crate::impact::Finder::Bisection), [`Finder::Secant`](crate::impact::Finder::Secant) |
+//! | bisection, secant, guaranteed | [`Finder::Bisection`](crate::impact::Finder::Bisection), [`Finder::Secant`](crate::impact::Finder::Secant), [`Finder::Guaranteed`](crate::impact::Finder::Guaranteed) |
 //! | `ε` | [`RunOptions::eps`](crate::scene::RunOptions::eps), [`tolerance::IMPACT_GAP`](crate::tolerance::IMPACT_GAP) |
 //! | bounce, stick | [`Response`](crate::contact::Response) |
 //!
@@ -458,15 +458,17 @@
 //! **Friction** (Coulomb): `|f_t| ≤ μ f_n`, a sliding force against the sliding velocity; in an impact
 //! the cone holds for the whole impulse.
 //!
-//! What the code has today is bounce and stick of a body on a fixed half space, for which `1/m_a` and
-//! `I_a⁻¹` are 0. A body that touches with several vertices bounces at their centroid. One that sticks
-//! comes to rest. Resting contact and friction are not answered: a body that comes to rest by ever
-//! lower bounces ends the run with
-//! [`AccumulatingImpacts`](crate::simulation::Failure::AccumulatingImpacts).
+//! In a run all bodies that touch at an instant are answered at once. Bounces that come ever faster end when
+//! their geometric series does; what has no speed left along the normal then rests, slides, rolls or tips by
+//! the forces of contact. A body that sticks to a fixed one stops there. Where this version cannot follow a
+//! contact, the run ends in
+//! [`LastingContact`](crate::simulation::Failure::LastingContact) with all that was computed.
 //!
 //! | | in code |
 //! |---|---|
-//! | bounce | [`contact::bounce::bounce`](crate::contact::bounce::bounce) |
+//! | bounce | [`contact::bounce::bounce`](crate::contact::bounce::bounce), of several bodies [`contact::collision::collide`](crate::contact::collision::collide) |
+//! | rest, sliding | [`contact::rest::rest`](crate::contact::rest::rest) |
+//! | accumulation | [`contact::accumulation`](crate::contact::accumulation) |
 //! | stick | [`contact::stick::stick`](crate::contact::stick::stick) |
 //! | sum of tensors | [`MassProperties::combined`](crate::mass::MassProperties::combined) |
 //! | restitution of a pair | [`Material::of_pair`](crate::contact::Material::of_pair) |

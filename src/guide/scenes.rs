@@ -67,7 +67,7 @@
 //! | `velocity` | m/s | 0, or what the freedom asks for | velocity of the centre of mass |
 //! | `angular_velocity` | rad/s | 0 | angular velocity |
 //! | `angular_velocity_body` | rad/s | | the same in body axes, instead of `angular_velocity` |
-//! | `friction` | – | 0 | coefficient of friction, ≥ 0; kept with the scene, no contact uses it yet |
+//! | `friction` | – | 0 | coefficient of friction μ, ≥ 0; a pair has the geometric mean of both |
 //! | `restitution` | – | 0 | coefficient of restitution, 0 to 1; a pair has the larger of both |
 //! | `response` | | `"bounce"` | `"bounce"` or `"stick"`; a pair sticks if either body says so |
 //! | `fixed` | | `false` | whether the body stays where it is |
@@ -77,9 +77,11 @@
 //! A body that moves needs a density, or a mass, or a mass and an inertia; without a shape, the last. A
 //! fixed body needs a shape, and no velocity. Body axes are the axes of the shape.
 //!
-//! Contact is answered between a fixed half space and a free body that is a ball or has flat faces. Every
-//! other pair of bodies with shapes, of which one can move, is refused until one of them says
-//! `collides = false`.
+//! Every two bodies with shapes, of which one can move, may meet, until one of them says
+//! `collides = false`. Free bodies bounce off each other and off fixed ones, with friction; they rest, slide,
+//! roll and tip on each other. Sticking is answered to fixed bodies only, and bodies of fewer freedoms must
+//! not collide; both are refused by name. So ends a run, with all that was computed, where a curve that is
+//! neither ball nor cylinder rolls.
 //!
 //! ```toml
 //! [[bodies]]
@@ -361,8 +363,9 @@
 //! | `length_scale` | m | the larger of body and path | what position errors are measured by |
 //! | `orientation` | | `"quaternion"` | `"quaternion"` or `"matrix"`, in methods that integrate in world axes |
 //! | `projection` | | `true` | whether orientations are put back on their sphere after each step |
-//! | `finder` | | `"secant"` | how the time of contact is found: `"secant"` or `"bisection"` |
-//! | `eps` | m | 1e-12 of the body's size | gap at which a contact is accepted; never below the rounding of the coordinates |
+//! | `finder` | | `"guaranteed"` | how the time of contact is found: `"guaranteed"` proves every piece of the way free; the lecture's `"secant"` and `"bisection"` look at the ends of steps |
+//! | `eps` | m | 1e-12 of the pair's size | gap at which a contact is accepted; never below the rounding of the coordinates |
+//! | `restitution_law` | | `"newton"` | what comes back where friction couples normal and tangent: the normal velocity (`"newton"`), the impulse of compression (`"poisson"`), or its work (`"stronge"`) |
 //! | `events` | | none | a list: what is watched for; see [Events](#events) |
 //!
 //! ```toml
@@ -384,8 +387,9 @@
 //! record = "dense"
 //! orientation = "matrix"
 //! projection = false
-//! finder = "bisection"
+//! finder = "secant"
 //! eps = 1e-9
+//! restitution_law = "poisson"
 //! ```
 //!
 //! # Events

@@ -1,7 +1,29 @@
-//! The time of contact: between two instants, when does a gap close (lecture §7)?
+//! The time of contact: when do two moving bodies first touch (lecture §7)?
 //!
-//! The finders here keep the lecture's terms: they see a collision where the interval ends in
-//! overlap. A pass-through within the interval leaves no change of sign, and is not seen.
+//! | finder | file | what it does |
+//! |---|---|---|
+//! | [`Finder::Bisection`] | `bisection` | the lecture's: halves the interval; sees what ends in overlap |
+//! | [`Finder::Secant`] | `secant` | the lecture's acceleration, its bracket kept; sees the same |
+//! | [`Finder::Guaranteed`] | `guaranteed` | proves every piece of the way free; misses nothing |
+//!
+//! The first two look at the ends of the interval: a pass-through leaves no change of sign there, and is
+//! not seen. The guaranteed search works on any [`Moving`] body: one that tells its pose at any time and
+//! bounds of its motion over any interval.
+//!
+//! Accepted is only a gap in (0, ε], never an overlap.
+
+mod bisection;
+mod ends;
+mod guaranteed;
+pub mod motion;
+mod secant;
+
+pub use ends::Found;
+pub use motion::{Instant, Motion, MotionBounds, Moving};
+
+use crate::closest::{Accuracy, ClosestFeatures, Collidable, PairCache, closest_features};
+use crate::error::{Error, Result};
+use crate::tolerance::IMPACT_GAP;
 
 /// How the time of contact is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -11,37 +33,56 @@ pub enum Finder {
     /// Halve the interval, keep the half with the change of sign.
     Bisection,
     /// The straight line through both ends, with halvings between so that it cannot stall.
-    #[default]
     Secant,
+    /// Advance only as far as no contact is proved.
+    #[default]
+    Guaranteed,
 }
 
 impl Finder {
     /// Every finder.
-    pub const ALL: &'static [Self] = &[Self::Bisection, Self::Secant];
+    pub const ALL: &'static [Self] = &[Self::Bisection, Self::Secant, Self::Guaranteed];
 
     /// The name that files and Python use.
     pub fn name(self) -> &'static str {
         match self {
             Self::Bisection => "bisection",
             Self::Secant => "secant",
+            Self::Guaranteed => "guaranteed",
         }
     }
 }
 
 /// How a search for an impact ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// The interval ends free: no impact that these finders can see.
+    /// No impact: proved by the guaranteed search, not seen by the others.
     Clear,
-    /// The gap is in 0..=ε at this time from the interval's start [s].
-    At(f64),
-    /// The gap never leaves 0..=ε before it closes: the bodies rest on each other, or bounce too low
-    /// to be told apart from resting.
+    /// The gap is in (0, ε] and closes.
+    At,
+    /// The search starts with a gap within ε that closes, or that stays.
     AlreadyTouching,
-    /// The interval starts in overlap of this depth [m].
-    Overlap(f64),
-    /// The interval has shrunk to this time [s] without a gap in 0..=ε.
-    Stalled(f64),
+    /// The search starts in overlap.
+    Overlap,
+    /// The gap came within (0, ε] and opens again, without ever being below −ε: whether the bodies
+    /// touched is less than ε tells.
+    Grazing,
+    /// No instant with a gap in (0, ε] can be told: ε is below what rounding leaves.
+    Stalled,
+}
+
+impl Outcome {
+    /// The name that Python uses.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clear => "clear",
+            Self::At => "at",
+            Self::AlreadyTouching => "already_touching",
+            Self::Overlap => "overlap",
+            Self::Grazing => "grazing",
+            Self::Stalled => "stalled",
+        }
+    }
 }
 
 /// The end of a search, and what it cost.
@@ -49,127 +90,255 @@ pub enum Outcome {
 pub struct Impact {
     /// How it ended.
     pub outcome: Outcome,
+    /// When [s]: of the impact or graze; the end of the search where it is clear; how far it came where
+    /// it stalled; else its start.
+    pub time: f64,
     /// Rounds of the finder.
     pub iterations: u32,
-    /// Evaluations of the gap.
+    /// Queries of the closest features, or evaluations of the gap.
     pub queries: u32,
+    /// The closest features at that time.
+    pub closest: ClosestFeatures,
 }
 
-/// Finds the impact in 0..=`h` [s], given the gap [m] as a function of time from the start. Accepted
-/// is only a gap in 0..=`eps` [m], never an overlap.
-pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Finder) -> Impact {
-    let mut queries = 0;
-    let mut gap = |t: f64| {
-        queries += 1;
-        gap(t)
+/// Finds the first impact of two moving bodies in 0..=`t_max` [s].
+///
+/// `eps` [m] is the gap at which contact is accepted; without it 1e-12 of the pair's size (both radii),
+/// and never less than the rounding of its coordinates. A smaller one is found later by less than
+/// `eps` over the speed of approach, at one or two more rounds.
+///
+/// A pair that starts within ε and separates is searched on from where its gap exceeds ε, or from where
+/// its approach resumes.
+///
+/// # Errors
+/// A span or ε that is not positive and finite; motions that are not finite.
+///
+/// # Example
+/// ```
+/// # fn main() -> Result<(), bryla::Error> {
+/// use bryla::impact::{Finder, Motion, Outcome, time_of_impact};
+/// use bryla::{Pose, shape::convex_polyhedron::ConvexPolyhedron};
+///
+/// let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| [0, 1, 2].map(|i| if k >> i & 1 == 0 { -0.5 } else { 0.5 }));
+/// let cube = ConvexPolyhedron::from_points(&corners)?;
+/// let rests = Motion::resting(Pose::identity());
+/// let comes = Motion::new(Pose::new([3.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]), [-4.0, 0.0, 0.0], [0.0; 3]);
+/// let found = time_of_impact(&cube, &rests, &cube, &comes, 1.0, None, Finder::Guaranteed)?;
+/// assert_eq!(found.outcome, Outcome::At);
+/// assert!((found.time - 0.5).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+pub fn time_of_impact<'a, 'b>(
+    a: impl Into<Collidable<'a>>,
+    motion_a: &dyn Moving,
+    b: impl Into<Collidable<'b>>,
+    motion_b: &dyn Moving,
+    t_max: f64,
+    eps: Option<f64>,
+    finder: Finder,
+) -> Result<Impact> {
+    let place = "time of impact";
+    if !(t_max > 0.0 && t_max.is_finite()) {
+        return Err(Error::value(place, "t_max", "positive and finite", t_max));
+    }
+    if let Some(eps) = eps.filter(|eps| !(*eps > 0.0 && eps.is_finite())) {
+        return Err(Error::value(place, "eps", "positive and finite", eps));
+    }
+    let (a, b) = ((a.into(), motion_a), (b.into(), motion_b));
+    let eps = eps.unwrap_or(IMPACT_GAP * (a.0.size() + b.0.size()));
+    let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps)?;
+    let closest = between(a, b, time, &mut PairCache::new())?;
+    Ok(Impact { outcome, time, iterations, queries, closest })
+}
+
+/// The search over `from..=to` [s] by any finder.
+pub(crate) fn first_impact_by(
+    finder: Finder,
+    a: (Collidable<'_>, &dyn Moving),
+    b: (Collidable<'_>, &dyn Moving),
+    from: f64,
+    to: f64,
+    eps: f64,
+) -> Result<Found> {
+    if finder == Finder::Guaranteed {
+        return first_impact(a, b, from, to, eps);
+    }
+    // the first pose that cannot be queried is remembered: the finders see numbers only
+    let (mut cache, mut refused) = (PairCache::new(), None);
+    let gap = |t: f64| match between(a, b, from + t, &mut cache) {
+        Ok(closest) => closest.signed_distance,
+        Err(error) => {
+            refused.get_or_insert(error);
+            f64::NAN
+        }
     };
-    let mut iterations = 0;
-    let outcome = search(&mut gap, h, eps, finder, &mut iterations);
-    Impact { outcome, iterations, queries }
+    let found = find_impact(gap, to - from, eps, finder);
+    match refused {
+        Some(error) => Err(error),
+        None => Ok(Found { time: from + found.time, until: from + found.until, ..found }),
+    }
 }
 
-fn search(gap: &mut impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Finder, iterations: &mut u32) -> Outcome {
-    // the state of affairs at both ends
-    let (mut a, mut gap_a) = (0.0, gap(0.0));
-    let (mut b, mut gap_b) = (h, gap(h));
-    if gap_a < -eps {
-        return Outcome::Overlap(-gap_a);
-    }
-    if gap_b > eps {
-        return Outcome::Clear;
-    }
-
-    // a body that has just bounced starts within ε: the search begins where it has left
-    if gap_a <= eps {
-        a = h / SHORTEST_STAY;
-        gap_a = gap(a);
-        while gap_a <= eps && a < h {
-            a *= 2.0;
-            gap_a = gap(a);
-        }
-        if gap_a <= eps {
-            return if gap_b >= 0.0 { Outcome::Clear } else { Outcome::AlreadyTouching };
-        }
-    }
-    if gap_b >= 0.0 {
-        return Outcome::At(b);
-    }
-
-    // the root stays in [a, b]; the secant aims at the middle of what is accepted
-    for round in 0..ROUNDS {
-        *iterations = round + 1;
-        let halve = finder == Finder::Bisection || round % 2 == 1;
-        let t = if halve { 0.5 * (a + b) } else { a + (gap_a - 0.5 * eps) * (b - a) / (gap_a - gap_b) };
-        if t <= a || t >= b {
-            break;
-        }
-        let gap_t = gap(t);
-        if (0.0..=eps).contains(&gap_t) {
-            return Outcome::At(t);
-        }
-        if gap_t > 0.0 {
-            (a, gap_a) = (t, gap_t);
-        } else {
-            (b, gap_b) = (t, gap_t);
+/// The guaranteed search over `from..=to` [s]: of bodies of several pieces, the earliest impact of two.
+pub(crate) fn first_impact(
+    (a, motion_a): (Collidable<'_>, &dyn Moving),
+    (b, motion_b): (Collidable<'_>, &dyn Moving),
+    from: f64,
+    to: f64,
+    eps: f64,
+) -> Result<Found> {
+    let mut first = Found { outcome: Outcome::Clear, time: to, until: to, iterations: 0, queries: 0 };
+    for i in 0..a.pieces() {
+        for j in 0..b.pieces() {
+            let mut cache = PairCache::new();
+            let mut search = guaranteed::Search::new((a.piece(i), motion_a), (b.piece(j), motion_b), &mut cache);
+            let found = search.run(from, first.time, eps)?;
+            first.iterations += found.iterations;
+            first.queries += found.queries;
+            if found.outcome != Outcome::Clear && (first.outcome == Outcome::Clear || found.time < first.time) {
+                (first.outcome, first.time, first.until) = (found.outcome, found.time, found.until);
+            }
+            if first.time <= from {
+                return Ok(first);
+            }
         }
     }
-    Outcome::Stalled(a)
+    Ok(first)
 }
 
-/// A bounce is looked for from this part of a step on, doubling [-]: a body that leaves ε and is back
-/// within the same doubling counts as touching.
-const SHORTEST_STAY: f64 = (1_u64 << 40) as f64;
-/// Rounds of a finder [-]: bisection from 1 to the smallest subnormal needs 1074, from a step to its
-/// last bit 53, and the secant halves in every second round.
-const ROUNDS: u32 = 128;
+/// The closest features at `t` [s].
+fn between(
+    (a, motion_a): (Collidable<'_>, &dyn Moving),
+    (b, motion_b): (Collidable<'_>, &dyn Moving),
+    t: f64,
+    cache: &mut PairCache,
+) -> Result<ClosestFeatures> {
+    closest_features(a, &motion_a.at(t).pose, b, &motion_b.at(t).pose, Some(cache), Accuracy::Exact)
+}
+
+/// Finds the impact in 0..=`h` [s] as the lecture does, given the gap [m] as a function of time from the
+/// start: by the secant, or by bisection where that is asked for.
+pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Finder) -> Found {
+    let next = if finder == Finder::Bisection { bisection::next } else { secant::next };
+    ends::find(&mut gap, h, eps, next)
+}
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::{Pose, Vector3};
+    use crate::shape::convex_polyhedron::ConvexPolyhedron;
 
-    const EPS: f64 = 1e-12;
+    fn cuboid(h: [f64; 3]) -> ConvexPolyhedron {
+        let corner = |k: usize| std::array::from_fn(|i| if (k >> i) & 1 == 0 { -h[i] } else { h[i] });
+        ConvexPolyhedron::from_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> Pose {
+        Pose::new([x, y, z], [1.0, 0.0, 0.0, 0.0])
+    }
+
+    fn guaranteed(a: &ConvexPolyhedron, m: &Motion, b: &ConvexPolyhedron, n: &Motion, to: f64) -> Impact {
+        time_of_impact(a, m, b, n, to, None, Finder::Guaranteed).unwrap()
+    }
 
     #[test]
-    fn a_falling_point_is_found_by_both_finders_and_never_below_the_plane() {
-        // gap = 1 − t − 5 t²: root t = (√21 − 1)/10; the time may be early by ε/speed
-        let root = (21f64.sqrt() - 1.0) / 10.0;
-        for &finder in Finder::ALL {
-            let gap = |t: f64| 1.0 - t - 5.0 * t * t;
-            let Impact { outcome: Outcome::At(t), .. } = find_impact(gap, 1.0, EPS, finder) else {
-                panic!("{finder:?} found nothing")
-            };
-            assert!((0.0..=EPS).contains(&gap(t)));
-            assert!((t - root).abs() <= EPS);
+    fn a_bullet_meets_a_thin_plate_at_any_speed() {
+        // faces at −1e-6 and from 3 − 0.01 on: t = (2.99 − 1e-6)/v, early by ε/v at most
+        let (plate, bullet) = (cuboid([0.5, 0.5, 1e-6]), cuboid([0.01; 3]));
+        for speed in [1e3, 1e4, 1e5] {
+            for &finder in Finder::ALL {
+                let flies = Motion::new(at(0.1, 0.2, 3.0), [0.0, 0.0, -speed], [0.0; 3]);
+                let rests = Motion::resting(Pose::identity());
+                let found = time_of_impact(&plate, &rests, &bullet, &flies, 0.1, None, finder).unwrap();
+                if finder == Finder::Guaranteed {
+                    let truth = (2.99 - 1e-6) / speed;
+                    assert_eq!(found.outcome, Outcome::At);
+                    // ε of both radii, 0.73 m, and the rounding of 3 m to a few ε
+                    assert!((found.time - truth).abs() * speed < 2e-12, "{:e}", (found.time - truth) * speed);
+                } else {
+                    // the lecture's finders look at the ends, and there is nothing to be seen
+                    assert_eq!(found.outcome, Outcome::Clear, "{finder:?}");
+                }
+            }
         }
     }
 
     #[test]
-    fn the_secant_is_the_faster_one() {
-        let gap = |t: f64| 1.0 - t - 5.0 * t * t;
-        let [bisection, secant] = [Finder::Bisection, Finder::Secant].map(|f| find_impact(gap, 1.0, EPS, f).iterations);
-        // bisection gains a digit in 3.3 rounds: 1e-12 of 1 takes about 40
-        assert!((36..=44).contains(&bisection), "{bisection}");
-        assert!(secant < bisection / 2, "{secant}");
+    fn a_rod_spinning_at_1000_rad_per_second_meets_a_wall_with_its_tip() {
+        // gap = 1.5 − v t − |cos ω t|; the first root lies in the first half turn whose end of rod is out far enough
+        let (v, w) = (0.8, 1000.0);
+        let gap = |t: f64| 1.5 - v * t - libm::cos(w * t).abs();
+        let half_turn = std::f64::consts::PI / w;
+        let near = (1..1000).map(|k| f64::from(k) * half_turn).find(|t| gap(*t) < 0.0).unwrap();
+        let (mut a, mut b) = (near - 0.5 * half_turn, near);
+        for _ in 0..100 {
+            let middle = 0.5 * (a + b);
+            *(if gap(middle) > 0.0 { &mut a } else { &mut b }) = middle;
+        }
+
+        let rod = ConvexPolyhedron::from_points(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]).unwrap();
+        let spins = Motion::new(at(-1.5, 0.0, 0.0), [v, 0.0, 0.0], [0.0, 0.0, w]);
+        let wall = Motion::resting(at(1.0, 0.0, 0.0));
+        let found = guaranteed(&rod, &spins, &cuboid([1.0, 5.0, 5.0]), &wall, 2.0);
+        assert_eq!(found.outcome, Outcome::At);
+        // ε = 1e-12 · 8.1 m and the rounding of an angle of 625 rad, at an approach of some 70 m/s
+        assert!((found.time - a).abs() < 1e-12, "{:e}", found.time - a);
+        assert!(found.iterations < 2000, "{}", found.iterations);
     }
 
     #[test]
-    fn every_way_to_end_has_its_name() {
-        let end = |gap: fn(f64) -> f64| find_impact(gap, 1.0, EPS, Finder::Secant).outcome;
-        assert_eq!(end(|_| 1.0), Outcome::Clear);
-        assert_eq!(end(|t| t - 0.5), Outcome::Overlap(0.5));
-        assert_eq!(end(|t| -t), Outcome::AlreadyTouching);
-        assert_eq!(end(|t| 1.0 - t), Outcome::At(1.0));
-        // a jump over the band leaves no gap to accept
-        let Outcome::Stalled(t) = end(|t| if t < 0.3 { 1.0 } else { -1.0 }) else { panic!("a jump was accepted") };
-        assert!((t - 0.3).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_body_that_has_just_bounced_is_found_again_where_it_lands() {
-        // up from the plane with 1, down with 5 t²: back at t = 1/5
-        let Outcome::At(t) = find_impact(|t| t - 5.0 * t * t, 0.3, EPS, Finder::Secant).outcome else {
-            panic!("the second contact is missed")
+    fn a_corner_that_passes_a_wall_hits_clears_or_grazes_by_its_distance() {
+        // a cube turns in place; its edge is at most √½ from the axis, at φ = π/4
+        let (cube, wall) = (cuboid([0.5; 3]), cuboid([1.0, 5.0, 5.0]));
+        let turns = Motion::new(at(0.0, 0.0, 0.0), [0.0; 3], [0.0, 0.0, 1.0]);
+        let reach = 0.5f64.sqrt();
+        let end = |distance: f64| {
+            let rests = Motion::resting(at(1.0 + reach + distance, 0.0, 0.0));
+            guaranteed(&cube, &turns, &wall, &rests, 1.2)
         };
-        assert!((t - 0.2).abs() <= EPS);
+        // ε is 1e-12 of both radii, 8.0e-12
+        assert_eq!(end(1e-10).outcome, Outcome::Clear);
+        let grazes = end(4e-12);
+        assert_eq!(grazes.outcome, Outcome::Grazing);
+        assert!(grazes.closest.lower > 0.0 && grazes.closest.signed_distance <= 8.1e-12);
+        let hits = end(-1e-6);
+        let truth = std::f64::consts::FRAC_PI_4 - libm::acos(1.0 - 1e-6 / reach);
+        assert_eq!(hits.outcome, Outcome::At);
+        // ε over the speed √½ sin(acos(1 − 1e-6/√½))
+        assert!((hits.time - truth).abs() < 1e-8, "{:e}", hits.time - truth);
+        assert!(hits.closest.lower > 0.0);
+    }
+
+    #[test]
+    fn what_starts_touching_is_told_from_what_leaves_and_what_overlaps() {
+        let cube = cuboid([0.5; 3]);
+        let rests = Motion::resting(Pose::identity());
+        let end = |gap: f64, velocity: [f64; 3], spin: [f64; 3]| {
+            let moves = Motion::new(at(0.0, 0.0, 1.0 + gap), velocity, spin);
+            guaranteed(&cube, &rests, &cube, &moves, 1.0).outcome
+        };
+        for gap in [0.0, 1e-13, 1e-12] {
+            assert_eq!(end(gap, [0.0, 0.0, 2.0], [0.1, 0.2, 0.3]), Outcome::Clear, "{gap:e}");
+            assert_eq!(end(gap, [0.0, 0.0, -2.0], [0.0; 3]), Outcome::AlreadyTouching, "{gap:e}");
+            // one edge leaves, the other comes
+            assert_eq!(end(gap, [0.0; 3], [1.0, 0.0, 0.0]), Outcome::AlreadyTouching, "{gap:e}");
+            // sliding: the gap stays
+            assert_eq!(end(gap, [0.3, 0.1, 0.0], [0.0; 3]), Outcome::Clear, "{gap:e}");
+        }
+        assert_eq!(end(-0.1, [0.0, 0.0, 2.0], [0.0; 3]), Outcome::Overlap);
+    }
+
+    #[test]
+    fn bad_input_is_refused_by_name() {
+        let (cube, rests) = (cuboid([0.5; 3]), Motion::resting(Pose::identity()));
+        let with = |t_max, eps| time_of_impact(&cube, &rests, &cube, &rests, t_max, eps, Finder::Guaranteed);
+        assert!(with(f64::NAN, None).unwrap_err().to_string().contains("t_max"));
+        assert!(with(0.0, None).unwrap_err().to_string().contains("t_max"));
+        assert!(with(1.0, Some(-1.0)).unwrap_err().to_string().contains("eps"));
+        let lost = Motion::new(Pose { position: Vector3::repeat(f64::NAN), ..Pose::identity() }, [0.0; 3], [0.0; 3]);
+        assert!(time_of_impact(&cube, &rests, &cube, &lost, 1.0, None, Finder::Secant).is_err());
+        assert!(time_of_impact(&cube, &rests, &cube, &lost, 1.0, None, Finder::Guaranteed).is_err());
     }
 }

@@ -70,8 +70,18 @@ pub struct ClosedMotion {
     begin: Time,
     starts: Vec<Start>,
     /// The rotation of each body that has one.
-    spins: Vec<Option<FreeRotation>>,
+    spins: Vec<Option<Spinning>>,
     dimension: usize,
+}
+
+/// A rotation without torque.
+#[derive(Debug, Clone)]
+struct Spinning {
+    rotation: FreeRotation,
+    /// Principal moments [kg m²].
+    moments: Vector3,
+    /// Inverse of the inertia, body axes [1/(kg m²)].
+    inverse: Matrix3,
 }
 
 /// What of a closed motion is written to a file; the rest follows from it.
@@ -107,7 +117,9 @@ impl ClosedMotion {
         let rotation = |inertia: Matrix3, orientation: Quaternion, momentum: &Vector3| {
             let principal = MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia }.principal();
             let momentum_body = quaternion::rotate(&orientation.conjugate(), momentum);
-            Some(FreeRotation::new(principal.moments, principal.axes, orientation, momentum_body))
+            let rotation = FreeRotation::new(principal.moments, principal.axes, orientation, momentum_body);
+            let inverse = inertia.try_inverse().unwrap_or_else(|| Matrix3::from_element(f64::NAN));
+            Some(Spinning { rotation, moments: principal.moments, inverse })
         };
         let spins = starts.iter().map(|start| match start {
             Start::Free { motion, .. } => rotation(motion.inertia_body, motion.orientation, &motion.angular_momentum()),
@@ -137,12 +149,12 @@ impl ClosedMotion {
                     let (position, velocity) = pull.after(&motion.position, &motion.velocity, t);
                     y[at..at + 3].copy_from_slice(position.as_slice());
                     y[at + 3..at + 6].copy_from_slice((motion.mass * velocity).as_slice());
-                    y[at + 6..at + 10].copy_from_slice(&quaternion::to_scalar_first(&spin.at(t).0));
+                    y[at + 6..at + 10].copy_from_slice(&quaternion::to_scalar_first(&spin.rotation.at(t).0));
                     y[at + 10..at + 13].copy_from_slice(motion.angular_momentum().as_slice());
                     at += 13;
                 }
                 (Start::Pivot { momentum, .. }, Some(spin)) => {
-                    y[at..at + 4].copy_from_slice(&quaternion::to_scalar_first(&spin.at(t).0));
+                    y[at..at + 4].copy_from_slice(&quaternion::to_scalar_first(&spin.rotation.at(t).0));
                     y[at + 4..at + 7].copy_from_slice(momentum.as_slice());
                     at += 7;
                 }
@@ -157,6 +169,74 @@ impl ClosedMotion {
         }
     }
 }
+
+/// Bounds of a free motion over an interval: `|x″ − a| ≤ δ`, `|ω| ≤ w`, `|ω′| ≤ w′`, world axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FreeBounds {
+    pub(crate) acceleration: Vector3,
+    pub(crate) deviation: f64,
+    pub(crate) angular_speed: f64,
+    pub(crate) angular_acceleration: f64,
+}
+
+/// A free body among those of a closed motion.
+impl ClosedMotion {
+    /// Position [m], velocity [m/s], orientation and angular velocity [rad/s] of a free body, world axes, at
+    /// the time `t` since the beginning [s].
+    pub(crate) fn free_motion(&self, body: usize, t: f64) -> (Vector3, Vector3, Quaternion, Vector3) {
+        let (Start::Free { motion, pull }, Some(spin)) = (&self.starts[body], &self.spins[body]) else {
+            return (Vector3::zeros(), Vector3::zeros(), Quaternion::identity(), Vector3::zeros());
+        };
+        let (position, velocity) = pull.after(&motion.position, &motion.velocity, t);
+        let (q, momentum_body) = spin.rotation.at(t);
+        (position, velocity, q, quaternion::rotate(&q, &(spin.inverse * momentum_body)))
+    }
+
+    /// Bounds of the motion of a free body over `from..=to` [s] since the beginning.
+    ///
+    /// ```text
+    /// a(t) = a₀ e^(−kt)                             within |a₀| (e^(−k from) − e^(−k to))/2 of the middle
+    /// |ω|² ≤ min(2 E/I_min, (|L|/I_min)²)
+    /// ω′_i = κ_i ω_j ω_k,  |κ_i| ≤ κ = min(1, (I_max − I_min)/I_min)    |ω′| ≤ κ |ω|²/√3,  |ω″| ≤ 2 κ |ω| |ω′|
+    /// ```
+    ///
+    /// ω′ is the same vector in body and in world axes, and ω″ differs by ω × ω′. So over a short interval
+    /// ω′ is known by its value at the start.
+    pub(crate) fn free_bounds(&self, body: usize, from: f64, to: f64) -> FreeBounds {
+        let (Start::Free { motion, pull }, Some(spin)) = (&self.starts[body], &self.spins[body]) else {
+            let acceleration = Vector3::zeros();
+            return FreeBounds { acceleration, deviation: 0.0, angular_speed: 0.0, angular_acceleration: 0.0 };
+        };
+        let start = pull.acceleration - pull.drag * (motion.velocity - pull.wind);
+        let (first, last) = (libm::exp(-pull.drag * from), libm::exp(-pull.drag * to));
+        let (acceleration, deviation) = (0.5 * (first + last) * start, 0.5 * (first - last) * start.norm());
+
+        let w = motion.angular_velocity_body();
+        let (least, most) = (spin.moments.min(), spin.moments.max());
+        let momentum = motion.inertia_body * w;
+        let angular_speed = (momentum.norm() / least).min((w.dot(&momentum) / least).sqrt()) * OUTWARD;
+        let kappa = if most - least < SPHERE * most { 0.0 } else { ((most - least) / least).min(1.0) };
+        let always = kappa * angular_speed * angular_speed / 3f64.sqrt();
+        if always == 0.0 {
+            return FreeBounds { acceleration, deviation, angular_speed, angular_acceleration: 0.0 };
+        }
+        let (_, momentum) = spin.rotation.at(from);
+        let w = spin.inverse * momentum;
+        let now = (spin.inverse * momentum.cross(&w)).norm();
+        let change = (2.0 * kappa + 1.0) * angular_speed * always;
+        FreeBounds {
+            acceleration,
+            deviation,
+            angular_speed,
+            angular_acceleration: always.min(OUTWARD * (now + (to - from) * change)),
+        }
+    }
+}
+
+/// Room for the rounding of a bound [-].
+const OUTWARD: f64 = 1.0 + 1.0e-12;
+/// Difference of the moments of a sphere, as a fraction of them, that is taken for rounding [-].
+const SPHERE: f64 = 16.0 * f64::EPSILON;
 
 /// A flight in closed form. Its steps are only the pieces in which others look at it.
 #[derive(Debug)]

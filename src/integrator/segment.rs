@@ -75,7 +75,7 @@ impl Segment {
     /// ```text
     /// c₀ = y₀,  c₁ = h y₀′,  c₂ = 3 Δ − h (2 y₀′ + y₁′),  c₃ = h (y₀′ + y₁′) − 2 Δ,   Δ = y₁ − y₀
     /// ```
-    pub(super) fn set_hermite(&mut self, at: Moment, h: f64, [y0, k0, y1, k1]: [&[f64]; 4]) {
+    pub(crate) fn set_hermite(&mut self, at: Moment, h: f64, [y0, k0, y1, k1]: [&[f64]; 4]) {
         let n = y0.len();
         let (c0, rest) = self.set_span(at, h, n, 4).split_at_mut(n);
         let (c1, rest) = rest.split_at_mut(n);

@@ -41,22 +41,9 @@ impl Plan {
         for (number, group) in self.groups.iter().enumerate() {
             self.write_group(out, number, group)?;
         }
-        let pairs: Vec<_> =
-            self.groups.iter().flat_map(|group| group.pairs.iter().map(move |pair| (group, pair))).collect();
-        for (i, (group, pair)) in pairs.iter().enumerate() {
-            let names = [group.members[pair.member], pair.obstacle].map(|i| self.bodies[i].name.as_str());
-            let what = match pair.material.response {
-                crate::contact::Response::Bounce => format!("bounce, restitution {}", short(pair.material.restitution)),
-                crate::contact::Response::Stick => "stick".to_owned(),
-            };
-            let finder = self.options.finder.name();
-            writeln!(
-                out,
-                "  {:<10} {}–{}: {what}; time of contact by {finder}",
-                label(i, "pairs"),
-                names[0],
-                names[1]
-            )?;
+        let pairs = self.pairs_in_words();
+        for (i, pair) in pairs.iter().enumerate() {
+            writeln!(out, "  {:<10} {pair}", label(i, "pairs"))?;
         }
         for (i, left) in self.left_out.iter().enumerate() {
             writeln!(out, "  {:<10} {}: {}", label(i, "left out"), left.what, left.why)?;
@@ -66,6 +53,38 @@ impl Plan {
             writeln!(out, "  {label:<10} contact: no two bodies can meet")?;
         }
         Ok(())
+    }
+
+    /// The pairs that may meet, one a line; of many their number.
+    fn pairs_in_words(&self) -> Vec<String> {
+        let solid: Vec<usize> = (0..self.bodies.len()).filter(|&i| self.bodies[i].collider.is_some()).collect();
+        let moving = solid.iter().filter(|&&i| !self.bodies[i].fixed).count();
+        let finder = self.options.finder.name();
+        let count = moving * (solid.len() - moving) + moving * moving.saturating_sub(1) / 2;
+        if count > MOST_PAIRS {
+            let bodies = solid.len();
+            return vec![format!(
+                "{count} of {bodies} bodies that may meet, found by a tree; time of contact by {finder}"
+            )];
+        }
+        let mut lines = Vec::new();
+        for (k, &a) in solid.iter().enumerate() {
+            for &b in solid[k + 1..].iter().filter(|&&b| self.may_meet(a, b)) {
+                let material = self.material(a, b);
+                let what = match material.response {
+                    crate::contact::Response::Bounce => format!("bounce, restitution {}", short(material.restitution)),
+                    crate::contact::Response::Stick => "stick".to_owned(),
+                };
+                let friction = match material.friction {
+                    0.0 => String::new(),
+                    mu => format!(", friction {}", short(mu)),
+                };
+                let (first, second) = if self.bodies[a].fixed { (b, a) } else { (a, b) };
+                let names = [first, second].map(|i| self.bodies[i].name.as_str());
+                lines.push(format!("{}–{}: {what}{friction}; time of contact by {finder}", names[0], names[1]));
+            }
+        }
+        lines
     }
 
     fn write_group(&self, out: &mut String, number: usize, group: &FlightGroup) -> std::fmt::Result {
@@ -117,6 +136,9 @@ impl Plan {
         Ok(())
     }
 }
+
+/// Most pairs that are listed one by one [-].
+const MOST_PAIRS: usize = 16;
 
 /// The label on the first line of a block, blanks on the others.
 fn label(line: usize, name: &str) -> &str {

@@ -91,7 +91,7 @@ impl FlightGroup {
             effect.conservative() && !effect.depends_on_velocity() && !matches!(*binding.effect, AnyEffect::User(_))
         };
         let exact = options.tolerance.is_some_and(|tolerance| tolerance <= LONG_TOLERANCE);
-        if !exact || !self.pairs.is_empty() || !self.bindings.iter().all(positional) {
+        if !exact || self.meets || !self.bindings.iter().all(positional) {
             return None;
         }
         let fastest = self.members.iter().map(|&i| bodies[i].start.angular_velocity.norm()).fold(0.0, f64::max);

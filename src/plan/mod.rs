@@ -7,8 +7,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::closest::vertex_plane::{Collider, Plane};
-use crate::contact::Material;
+use crate::closest::Collider;
+use crate::contact::{Material, Response};
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom};
@@ -16,8 +16,7 @@ use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Met
 use crate::mass::MassProperties;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
-use crate::scene::{Body, Orientation, RunOptions, Scene};
-use crate::shape::Shape;
+use crate::scene::{Body, Finder, Orientation, RunOptions, Scene};
 use crate::state::{BodyMotion, BodyState};
 
 pub mod cost;
@@ -45,6 +44,8 @@ pub struct PlannedBody {
     pub start: BodyMotion,
     /// Largest distance of its matter from the centre of mass [m]; 0 without a shape.
     pub radius: f64,
+    /// Its shape, prepared for queries, where it may meet another body.
+    pub collider: Option<Arc<Collider>>,
 }
 
 impl PlannedBody {
@@ -96,8 +97,8 @@ pub struct FlightGroup {
     pub(crate) watches: Vec<watch::Watch>,
     /// The loads that the state turns on and off.
     pub(crate) toggles: Vec<Toggle>,
-    /// The moving bodies that may meet a fixed plane.
-    pub(crate) pairs: Vec<Pair>,
+    /// Whether a member may meet another body.
+    pub(crate) meets: bool,
 }
 
 impl FlightGroup {
@@ -108,20 +109,6 @@ impl FlightGroup {
             kinks.extend(binding.members.iter().flat_map(|&i| effect.kinks(&motions[i])).flatten());
         }
     }
-}
-
-/// A moving body and a fixed half space that it may meet.
-#[derive(Debug, Clone)]
-pub(crate) struct Pair {
-    /// The body, as a place in its group.
-    pub(crate) member: usize,
-    /// The half space, as a place in the scene.
-    pub(crate) obstacle: usize,
-    pub(crate) collider: Collider,
-    pub(crate) plane: Plane,
-    pub(crate) material: Material,
-    /// Size of the pair [m], by which its tolerances are measured.
-    pub(crate) size: f64,
 }
 
 /// A scene after checking, with only what it calls for.
@@ -190,8 +177,10 @@ impl Plan {
         for members in &watched {
             grouping.join(members, &bodies);
         }
-        let mut groups = grouping.groups(&scene, &bodies, options, &mut left_out)?;
+        let mut groups = grouping.groups(&scene, &bodies);
         watch::bind(&watched, &bodies, &mut groups);
+        let mut bodies = bodies;
+        collisions(&scene, &mut bodies, &mut groups, options, &mut left_out)?;
         for group in &mut groups {
             group.choose_method(&bodies, options)?;
         }
@@ -276,8 +265,8 @@ impl Plan {
     }
 
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
-    /// rest. Where the group may meet something, steps stay short enough for the search of contacts,
-    /// which looks at the ends of a step.
+    /// rest. Where the group may meet something, and the search of contacts looks at the ends of a step
+    /// only, steps stay short enough for it.
     pub(crate) fn flight_for(
         &self,
         group: usize,
@@ -296,7 +285,7 @@ impl Plan {
         }
 
         let control = match control {
-            Control::Error(limits) if !self.groups[group].pairs.is_empty() => {
+            Control::Error(limits) if self.groups[group].meets && self.options.finder != Finder::Guaranteed => {
                 // finer runs look more often, so that what the coarser missed shows in their difference
                 let finer = libm::pow(limits.local / LOOKED_AT_LOCAL, 1.0 / 8.0);
                 let longest = limits.longest.min(finer * self.first_step(limits.scales.time));
@@ -370,6 +359,7 @@ fn planned(body: &Body) -> Result<PlannedBody> {
         fixed: body.fixed,
         start,
         radius,
+        collider: None,
     })
 }
 
@@ -442,13 +432,7 @@ impl Grouping {
         }
     }
 
-    fn groups(
-        &self,
-        scene: &Scene,
-        bodies: &[PlannedBody],
-        options: &RunOptions,
-        left_out: &mut Vec<LeftOut>,
-    ) -> Result<Vec<FlightGroup>> {
+    fn groups(&self, scene: &Scene, bodies: &[PlannedBody]) -> Vec<FlightGroup> {
         let mut groups = Vec::new();
         for first in (0..bodies.len()).filter(|&i| self.leader[i] == i && !bodies[i].fixed) {
             let mut members: Vec<usize> =
@@ -486,80 +470,91 @@ impl Grouping {
             switches.sort_by(f64::total_cmp);
             switches.dedup();
             let (method, why) = (Method::Exact, String::new());
-            let (watches, toggles, pairs) = (Vec::new(), watch::toggles(&bindings, scene), Vec::new());
-            let has_kinks = false;
+            let (watches, toggles) = (Vec::new(), watch::toggles(&bindings, scene));
+            let (has_kinks, meets) = (false, false);
             let mut group =
-                FlightGroup { members, bindings, has_kinks, method, why, switches, watches, toggles, pairs };
+                FlightGroup { members, bindings, has_kinks, method, why, switches, watches, toggles, meets };
             let (starts, mut kinks) = (group.members.iter().map(|&i| bodies[i].start).collect::<Vec<_>>(), Vec::new());
             group.kinks(&starts, &mut kinks);
             group.has_kinks = !kinks.is_empty();
             groups.push(group);
         }
-        pairs(scene, bodies, options, &mut groups, left_out)?;
-        Ok(groups)
+        groups
     }
 }
 
-/// Finds the pairs that may meet, and refuses those that this version cannot answer.
-fn pairs(
+/// Prepares the shapes of bodies that may meet, and refuses what this version cannot answer.
+fn collisions(
     scene: &Scene,
-    bodies: &[PlannedBody],
-    options: &RunOptions,
+    bodies: &mut [PlannedBody],
     groups: &mut [FlightGroup],
+    options: &RunOptions,
     left_out: &mut Vec<LeftOut>,
 ) -> Result<()> {
-    let solid = |i: usize| scene.bodies[i].collides && scene.bodies[i].shape.is_some();
-    for a in (0..bodies.len()).filter(|&i| solid(i)) {
-        for b in (a + 1..bodies.len()).filter(|&i| solid(i)) {
-            let what = format!("pair {}–{}", bodies[a].name, bodies[b].name);
-            if bodies[a].fixed && bodies[b].fixed {
-                left_out.push(LeftOut { what, why: "both are fixed".to_owned() });
-                continue;
+    let solid: Vec<usize> =
+        (0..bodies.len()).filter(|&i| scene.bodies[i].collides && scene.bodies[i].shape.is_some()).collect();
+    let fixed: Vec<&str> = solid.iter().filter(|&&i| bodies[i].fixed).map(|&i| bodies[i].name.as_str()).collect();
+    if fixed.len() > 1 {
+        let what = format!("pairs of {}", fixed.join(", "));
+        left_out.push(LeftOut { what, why: "all are fixed".to_owned() });
+    }
+    if solid.len() < 2 || fixed.len() == solid.len() {
+        return Ok(());
+    }
+
+    for &i in &solid {
+        let place = scene.bodies[i].place();
+        let never = "where it never meets another, say collides = false of it";
+        if !bodies[i].fixed {
+            if bodies[i].freedom != Freedom::Free {
+                let reason = format!("contact of a {} body cannot be answered; {never}", bodies[i].freedom.name());
+                return Err(Error::refused(place, reason));
             }
-            let (body, obstacle) = if bodies[a].fixed { (b, a) } else { (a, b) };
-            let Some(Shape::HalfSpace(half_space)) = &scene.bodies[obstacle].shape else {
-                let reason = "only contact with a fixed half space can be answered; \
-                              where the two never meet, say collides = false of one";
-                return Err(Error::refused(what, reason));
-            };
-            if bodies[body].freedom != Freedom::Free {
-                let reason = format!(
-                    "contact of a {} body cannot be answered; where the two never meet, say collides = false of one",
-                    bodies[body].freedom.name()
-                );
-                return Err(Error::refused(what, reason));
+            if options.orientation == Orientation::Matrix && options.finder == Finder::Guaranteed {
+                let reason = "the guaranteed finder bounds quaternions; with orientation = matrix name another finder";
+                return Err(Error::refused("run: orientation", reason));
             }
-            let shape = scene.bodies[body].shape.as_ref().ok_or_else(|| Error::refused(&what, "no shape"))?;
-            let center = &bodies[body].properties.center_of_mass;
-            let Some(collider) = Collider::new(shape, center) else {
-                let reason = format!(
-                    "contact of a {} cannot be answered; where the two never meet, say collides = false of one",
-                    shape.name()
-                );
-                return Err(Error::refused(what, reason));
-            };
-            if scene.bodies[body].friction * scene.bodies[obstacle].friction > 0.0 {
-                let why = "impacts are answered without friction".to_owned();
-                left_out.push(LeftOut { what: format!("friction of {}–{}", bodies[a].name, bodies[b].name), why });
-            }
-            let plane = Plane::new(half_space, &bodies[obstacle].start);
-            let size = bodies[body].radius;
-            let coordinates = bodies[body].start.position.amax() + plane.offset.abs() + size;
-            if let Some(eps) = options.eps.filter(|eps| *eps < EPS_ROUNDING * coordinates) {
-                let allowed =
-                    format!("at least {:e}, the rounding of the coordinates of {what}", EPS_ROUNDING * coordinates);
+            let rounding = EPS_ROUNDING * (bodies[i].start.position.amax() + bodies[i].radius);
+            if let Some(eps) = options.eps.filter(|eps| *eps < rounding) {
+                let allowed = format!("at least {rounding:e}, the rounding of the coordinates of {}", bodies[i].name);
                 return Err(Error::value("run", "eps", allowed, eps));
             }
-            let [a, b] = [body, obstacle].map(|i| (scene.bodies[i].restitution, scene.bodies[i].response));
-            let material = Material::of_pair(a, b);
-            for group in groups.iter_mut() {
-                if let Some(member) = group.members.iter().position(|&m| m == body) {
-                    group.pairs.push(Pair { member, obstacle, collider: collider.clone(), plane, material, size });
-                }
+            let sticks_to = |&j: &usize| {
+                j != i && !bodies[j].fixed && (scene.bodies[i].response, scene.bodies[j].response) != BOUNCE
+            };
+            if let Some(j) = solid.iter().copied().find(sticks_to) {
+                let what = format!("pair {}–{}", bodies[i.min(j)].name, bodies[i.max(j)].name);
+                let reason = format!("sticking is answered to fixed bodies only; {never}");
+                return Err(Error::refused(what, reason));
             }
         }
+        let Some(shape) = &scene.bodies[i].shape else { continue };
+        let collider = Collider::new(shape).map_err(|error| Error::refused(place, format!("{error}; {never}")))?;
+        bodies[i].collider = Some(Arc::new(collider));
+    }
+    for group in groups {
+        group.meets = group.members.iter().any(|&i| bodies[i].collider.is_some() && !bodies[i].fixed);
     }
     Ok(())
+}
+
+/// Both bodies of a pair bounce.
+const BOUNCE: (Response, Response) = (Response::Bounce, Response::Bounce);
+
+impl Plan {
+    /// What a pair of bodies does when they touch.
+    pub(crate) fn material(&self, a: usize, b: usize) -> Material {
+        Material::of_pair([a, b].map(|i| {
+            let body = &self.scene.bodies[i];
+            (body.restitution, body.friction, body.response)
+        }))
+    }
+
+    /// Whether two bodies may meet.
+    pub(crate) fn may_meet(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (&self.bodies[a], &self.bodies[b]);
+        a.collider.is_some() && b.collider.is_some() && !(a.fixed && b.fixed)
+    }
 }
 
 /// Rounding of a gap, in units of the coordinates it is worked out from [-]: a dozen operations.

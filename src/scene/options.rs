@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::event::UserEvent;
+pub use crate::contact::collision::Law;
 use crate::error::{Error, Result};
 pub use crate::impact::Finder;
 use crate::integrator::Method;
@@ -124,6 +125,8 @@ pub struct RunOptions {
     /// Gap at which a contact is accepted [m]; 1e-12 of the pair's size if absent.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub eps: Option<f64>,
+    /// What restitution means where friction couples the normal and the tangent.
+    pub restitution_law: Law,
     /// What is watched for.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub events: Vec<UserEvent>,
@@ -142,8 +145,9 @@ impl Default for RunOptions {
             length_scale: None,
             orientation: Orientation::Quaternion,
             projection: true,
-            finder: Finder::Secant,
+            finder: Finder::Guaranteed,
             eps: None,
+            restitution_law: Law::Newton,
             events: Vec::new(),
         }
     }
@@ -229,6 +233,13 @@ impl RunOptions {
     #[must_use]
     pub fn eps(mut self, eps: f64) -> Self {
         self.eps = Some(eps);
+        self
+    }
+
+    /// What restitution means where friction couples the normal and the tangent.
+    #[must_use]
+    pub fn restitution_law(mut self, law: Law) -> Self {
+        self.restitution_law = law;
         self
     }
 

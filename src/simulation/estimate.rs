@@ -2,7 +2,7 @@
 
 use crate::math::quaternion;
 use crate::state::BodyState;
-use crate::trajectory::Trajectory;
+use crate::trajectory::{Event, EventKind, Trajectory};
 
 /// Two runs of one scene, one finer than the other.
 ///
@@ -33,7 +33,11 @@ impl Comparison {
         let divisor = gain - 1.0;
         let tolerance = tolerance.unwrap_or(f64::INFINITY);
         let mut comparison = Self { worst: 0.0, within_horizon: 0.0, horizon: fine.end() };
-        let (pairs, complete) = common_samples(fine, coarse);
+        let until = first_mismatch(fine, coarse);
+        let (mut pairs, complete) = common_samples(fine, coarse);
+        let known = pairs.len();
+        pairs.retain(|&(sample, _)| fine.times()[sample] < until);
+        let complete = complete && pairs.len() == known;
         let mut lost = !complete;
         for &(sample, other) in &pairs {
             let error =
@@ -53,6 +57,53 @@ impl Comparison {
         comparison
     }
 }
+
+/// The time from which on two runs tell different stories [s]: the first bounce of a pair that is not among
+/// the bounces of that pair in the other run, or a pair that comes to rest in one only; infinity if there is none.
+///
+/// Bounces are counted pair by pair. The last and smallest of a series may be there in one run and not in the
+/// other; they move no body farther than the comparison of the samples shows.
+fn first_mismatch(fine: &Trajectory, coarse: &Trajectory) -> f64 {
+    let jump = |event: &Event| {
+        let [v, w] = [event.velocity, event.other_velocity].map(|v| (v[1] - v[0]).norm());
+        v.max(w)
+    };
+    let largest = fine.events().iter().chain(coarse.events()).map(jump).fold(0.0, f64::max);
+    let end = fine.end().min(coarse.end());
+    let mut pairs: Vec<[usize; 2]> = fine.events().iter().chain(coarse.events()).map(|e| e.bodies).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut first = f64::INFINITY;
+    for pair in pairs {
+        let of = |run: &Trajectory| -> Vec<(f64, f64)> {
+            let own = run.events().iter().filter(|e| e.bodies == pair && e.kind == EventKind::Bounce && e.time <= end);
+            own.map(|e| (e.time, jump(e))).filter(|(_, jump)| *jump > SMALLEST * largest).collect()
+        };
+        let (a, b) = (of(fine), of(coarse));
+        let (mut i, mut j) = (0, 0);
+        while i < a.len() || j < b.len() {
+            // two bounces go together where their jumps are alike
+            let alike = |x: f64, y: f64| (x - y).abs() <= ALIKE * x.max(y);
+            match (a.get(i), b.get(j)) {
+                (Some(x), Some(y)) if alike(x.1, y.1) => (i, j) = (i + 1, j + 1),
+                (Some(x), _) if x.1 < EDGE * SMALLEST * largest => i += 1,
+                (_, Some(y)) if y.1 < EDGE * SMALLEST * largest => j += 1,
+                (x, y) => {
+                    first = [x, y].into_iter().flatten().map(|bounce| bounce.0).fold(first, f64::min);
+                    break;
+                }
+            }
+        }
+    }
+    first
+}
+
+/// Jump of a velocity below which a bounce is not looked for in the other run, as a part of the largest [-].
+const SMALLEST: f64 = 1.0e-3;
+/// How much larger a bounce must be to be missed in the other run [-]: at the limit it may be on either side.
+const EDGE: f64 = 2.0;
+/// How far the jumps of a bounce in two runs may differ for it to be the same [-].
+const ALIKE: f64 = 0.1;
 
 /// The samples that two runs have in common, and whether these are all. Where the same event ended both, the last
 /// samples are those of the event, each at its own time: the error of that time is part of the error there.

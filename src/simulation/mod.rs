@@ -1,27 +1,35 @@
-//! A running scene: state and scratch, advanced step by step.
+//! A running scene: state and scratch, advanced event by event.
 //!
 //! ```text
-//! for each flight group:  step → find touching pairs → find the time of impact → respond → record
+//! step → open a window → find near pairs → find their times of impact → respond → record
 //! ```
 //!
-//! Groups do not wait for each other: each keeps its own flight and clock.
+//! Flight groups do not wait for each other: each keeps its own flight and clock. Bodies that may meet are
+//! joined by a queue of what is due (see `near`); an impact concerns its cluster only. A scene without
+//! contact never meets any of that.
 
 use std::sync::Arc;
 
-use crate::contact::{Answer, Response, bounce, stick};
+use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
-use crate::impact::{Outcome, find_impact};
+use crate::freedom::Chart;
 use crate::integrator::{Control, Counts, Flight, FlightError};
-use crate::math::Vector3;
-use crate::plan::{EPS_ROUNDING, Pair, Plan};
+use crate::plan::Plan;
 use crate::scene::Span;
 use crate::state::{BodyMotion, BodyState};
-use crate::tolerance::{IMPACT_GAP, TOUCH_GAP};
-use crate::trajectory::{Event, EventKind, Phase, Trajectory};
+use crate::trajectory::{Event, Heat, Phase, Trajectory};
+use lasting::Together;
+use near::Near;
 
+mod answer;
 pub(crate) mod clock;
+mod cluster;
 pub(crate) mod estimate;
+mod events;
+mod lasting;
+mod near;
 mod observe;
+mod path;
 mod predict;
 mod run;
 #[cfg(feature = "serde")]
@@ -53,9 +61,12 @@ pub enum Failure {
     /// See [`FlightError`].
     #[error(transparent)]
     Flight(#[from] FlightError),
-    /// Bounces follow each other ever faster, or the bodies rest on each other.
-    #[error("AccumulatingImpacts: bounces follow each other without end, or the bodies rest on each other; {0}")]
+    /// Bounces follow each other without end.
+    #[error("AccumulatingImpacts: bounces follow each other without end; {0}")]
     AccumulatingImpacts(String),
+    /// Bodies stay in a contact that this version cannot follow; why.
+    #[error("LastingContact: the bodies stay in contact, which cannot be followed further: {0}")]
+    LastingContact(String),
     /// The bodies overlap where they must not.
     #[error("the bodies overlap by {0:e} m")]
     Overlap(f64),
@@ -102,8 +113,18 @@ pub enum RunError {
 struct Lane {
     group: usize,
     flight: Box<dyn Flight>,
-    /// Bodies that stick to a fixed one, as places in the scene.
+    /// How many flights it has begun.
+    number: u64,
+    /// The coordinates that the flight is written in.
+    charts: Vec<Chart>,
+    /// The switch ahead [s] of a step that was taken but is not yet recorded: an impact may cut it.
+    pending: Option<f64>,
+    /// Bodies that rest, as places in the scene.
     held: Vec<usize>,
+    /// The part that the lane's body is led with, where it stays in contact and moves.
+    led: Option<usize>,
+    /// How many of its last steps in contact were short.
+    short: u32,
     /// Work of flights that impacts have ended.
     earlier: Counts,
     /// Motions at the instant under consideration.
@@ -135,15 +156,44 @@ pub struct Simulation {
     time: f64,
     end: f64,
     lanes: Vec<Lane>,
+    /// Where each body flies: lane, and place in it; none of fixed bodies.
+    places: Vec<Option<(usize, usize)>>,
+    near: Near,
+    /// Bodies that stay in contact and move, part by part.
+    together: Vec<Option<Together>>,
+    together_number: u64,
+    /// Bodies that have stuck to a fixed one, for good.
+    stuck: Vec<usize>,
+    /// Pairs that the laws of contact let go at the instant under consideration, and how fast they open [m/s].
+    released: Vec<([usize; 2], f64)>,
+    /// The last bounces of each pair, and when they would end [s].
+    bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
+    heat: Vec<Heat>,
     /// When a user's event ends the run [s], and which.
     ended: Option<(f64, String)>,
     iterations: u64,
+    grain: Grain,
 }
 
-/// Impulses at one instant after which a body is said to rest [-]. Two planes that answer each
-/// other with e < 1 are done to rounding after about 50.
-const ROUNDS_AT_ONCE: u32 = 64;
+/// How finely a pass looks at contacts: passes that differ in it show what hangs on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Grain {
+    /// ε, in that of the options [-].
+    eps: f64,
+    /// Steps of contacts that last, in their own [-].
+    step: f64,
+}
+
+impl Grain {
+    /// What the options say.
+    const FINE: Self = Self { eps: 1.0, step: 1.0 };
+
+    /// So many times coarser.
+    fn times(times: f64) -> Self {
+        Self { eps: times, step: times }
+    }
+}
 
 impl Plan {
     /// Starts the scene at time `t` [s], to be advanced by hand.
@@ -178,7 +228,12 @@ impl Simulation {
             lanes.push(Lane {
                 group,
                 flight,
+                number: 0,
+                charts: plan.charts(group, &[])?,
+                pending: None,
                 held: Vec::new(),
+                led: None,
+                short: 0,
                 earlier: Counts::default(),
                 motions,
                 kink: None,
@@ -192,8 +247,32 @@ impl Simulation {
                 due: None,
             });
         }
-        let (events, ended) = (Vec::new(), None);
-        Ok(Self { plan, controls, time: span.start, end: span.end, lanes, events, ended, iterations: 0 })
+        let mut places = vec![None; plan.bodies().len()];
+        for (lane, spec) in plan.groups().iter().enumerate() {
+            for (member, &body) in spec.members.iter().enumerate().filter(|(_, body)| !plan.bodies()[**body].fixed) {
+                places[body] = Some((lane, member));
+            }
+        }
+        let near = Near::default();
+        Ok(Self {
+            plan,
+            controls,
+            time: span.start,
+            end: span.end,
+            lanes,
+            places,
+            near,
+            together: Vec::new(),
+            together_number: 0,
+            stuck: Vec::new(),
+            released: Vec::new(),
+            bounces: Vec::new(),
+            events: Vec::new(),
+            heat: Vec::new(),
+            ended: None,
+            iterations: 0,
+            grain: Grain::FINE,
+        })
     }
 
     /// The plan that runs.
@@ -221,8 +300,12 @@ impl Simulation {
         if !(to >= self.time && to.is_finite()) {
             return Err(Error::value("simulation", "to", format!("a time not before {}", self.time), to).into());
         }
-        for lane in 0..self.lanes.len() {
-            self.advance_lane(lane, to, &mut None).map_err(Box::new)?;
+        self.advance_meeting(to, &mut None, &mut |_| std::ops::ControlFlow::Continue(())).map_err(Box::new)?;
+        for lane in self.lanes_alone() {
+            self.advance_unseen(lane, to).map_err(Box::new)?;
+            while self.lanes[lane].flight.front() < to {
+                self.step_lane(lane, &mut None).map_err(Box::new)?;
+            }
             if let Err(error) = self.lanes[lane].flight.interpolate() {
                 return Err(Box::new(self.failure(lane, self.time, error.into())).into());
             }
@@ -266,21 +349,9 @@ impl Simulation {
         counts
     }
 
-    /// Advances one lane until its motion is known at `to` [s].
-    fn advance_lane(
-        &mut self,
-        lane: usize,
-        to: f64,
-        record: &mut Option<&mut Trajectory>,
-    ) -> Result<(), SimulationError> {
-        self.answer_touches(lane, 0, record)?;
-        if record.is_none() {
-            self.advance_unseen(lane, to)?;
-        }
-        while self.lanes[lane].flight.front() < to {
-            self.step_lane(lane, record)?;
-        }
-        Ok(())
+    /// The lanes whose bodies meet nobody.
+    fn lanes_alone(&self) -> Vec<usize> {
+        (0..self.lanes.len()).filter(|&lane| !self.plan.groups()[self.lanes[lane].group].meets).collect()
     }
 
     /// Takes the steps that nobody looks at at once: no samples, nothing to meet, and no switch on the way.
@@ -289,7 +360,7 @@ impl Simulation {
         let spec = &plan.groups()[lane.group];
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        if !spec.pairs.is_empty()
+        if spec.meets
             || !spec.watches.is_empty()
             || !spec.toggles.is_empty()
             || plan.tolerance().is_some()
@@ -301,70 +372,73 @@ impl Simulation {
         taken.map_err(|error| self.failure(index, front, error.into()))
     }
 
-    /// One step of one lane: step, find touching pairs, find the time of impact, respond, record.
+    /// One step of a lane that meets nobody: step, record.
     fn step_lane(&mut self, index: usize, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+        self.take_step(index, record)?;
+        self.finish_step(index, record)
+    }
+
+    /// Takes one step of one lane, up to the next switch, kink, or the end of the run, so that its motion is
+    /// known where someone looks at it.
+    fn take_step(&mut self, index: usize, record: &Option<&mut Trajectory>) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
         let spec = &plan.groups()[lane.group];
-
-        // a step ends at the next switch, at a kink, or at the end of the run
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
-        let begin = (plan.tolerance().is_some() && lane.corrections < turn::CORRECTIONS)
-            .then(|| lane.kinks_at_front(spec))
-            .flatten();
-        let begun = lane.begin_switched(spec);
-        let turn = lane.ahead.map_or(f64::INFINITY, |ahead| ahead.time);
-        let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY)).min(turn);
-        if let Err(error) = lane.flight.advance(limit) {
-            return Err(self.failure(index, front, error.into()));
+        // a step over a kink, or over the instant that turns a load, is taken back and again, at most so many times
+        loop {
+            let lane = &mut self.lanes[index];
+            let begin = (plan.tolerance().is_some() && lane.corrections < turn::CORRECTIONS)
+                .then(|| lane.kinks_at_front(spec))
+                .flatten();
+            let begun = lane.begin_switched(spec);
+            let turn = lane.ahead.map_or(f64::INFINITY, |ahead| ahead.time);
+            let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY)).min(turn);
+            if let Err(error) = lane.flight.advance(limit) {
+                return Err(self.failure(index, front, error.into()));
+            }
+            if begin.is_some_and(|begin| lane.found_kink(spec, &begin)) {
+                continue;
+            }
+            if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {
+                (lane.kink, lane.corrections) = (None, 0);
+            }
+            if !begun.map_or(Ok(false), |begun| self.find_turn(index, &begun))? {
+                break;
+            }
         }
-        if begin.is_some_and(|begin| lane.found_kink(spec, &begin)) {
-            return Ok(());
-        }
-        if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {
-            (lane.kink, lane.corrections) = (None, 0);
-        }
-
-        if let Some(begun) = begun
-            && self.find_turn(index, &begun)?
-        {
-            return Ok(());
-        }
-
-        // the motion within the step, where someone looks at it
         let lane = &mut self.lanes[index];
         let looked_at = record.as_ref().is_some_and(|run| run.looks_into(lane.cursor, lane.flight.front()));
-        if (looked_at || !spec.pairs.is_empty() || !spec.watches.is_empty())
+        if (looked_at || spec.meets || !spec.watches.is_empty())
             && let Err(error) = lane.flight.interpolate()
         {
             return Err(self.failure(index, front, error.into()));
         }
+        self.lanes[index].pending = Some(switch);
+        Ok(())
+    }
 
-        // the first of the pairs that touch within the step cuts it
-        let first = self.first_impact(index, &spec.pairs)?;
-        let lane = &mut self.lanes[index];
-        if let Some((offset, iterations)) = first {
-            lane.flight.cut(offset);
-            self.iterations += u64::from(iterations);
-        }
+    /// Records the step that was taken, up to where an impact may have cut it.
+    fn finish_step(&mut self, index: usize, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
+        let Some(switch) = self.lanes[index].pending.take() else { return Ok(()) };
         self.observe(index)?;
+        let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
-        if record.is_some() {
-            lane.nodes.push(lane.flight.front());
-        }
-        if let (Some(run), true) = (record.as_mut(), looked_at) {
-            let off = lane.loads_off(spec);
-            lane.phase = run.phase_with(lane.phase, &off, lane.flight.segment().start);
-            let mut scratch = Vec::new();
-            run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
+        let spec = &plan.groups()[lane.group];
+        let front = lane.flight.front();
+        if let Some(run) = record.as_mut() {
+            lane.nodes.push(front);
+            if run.looks_into(lane.cursor, front) {
+                let off = lane.loads_off(spec);
+                lane.phase = run.phase_with(lane.phase, &off, lane.flight.segment().start);
+                let mut scratch = Vec::new();
+                run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
+            }
         }
         self.turn_due(index)?;
-        if let Some((_, iterations)) = first {
-            return self.answer_touches(index, iterations, record);
-        }
         let lane = &mut self.lanes[index];
-        if lane.flight.front() >= switch
+        if front >= switch
             && let Err(error) = lane.flight.pass_switch()
         {
             return Err(self.failure(index, front, error.into()));
@@ -372,177 +446,11 @@ impl Simulation {
         Ok(())
     }
 
-    /// Gap at which a contact of the pair is accepted [m].
-    fn eps(&self, pair: &Pair, motion: &BodyMotion) -> f64 {
-        let coordinates = motion.position.amax() + pair.plane.offset.abs() + pair.size;
-        self.plan.options().eps.unwrap_or(IMPACT_GAP * pair.size).max(EPS_ROUNDING * coordinates)
-    }
-
-    /// The earliest impact within the last step: time from the step's start [s], rounds of the finder.
-    fn first_impact(&self, index: usize, pairs: &[Pair]) -> Result<Option<(f64, u32)>, SimulationError> {
-        let lane = &self.lanes[index];
-        let segment = lane.flight.segment();
-        let mut motions = lane.motions.clone();
-        let mut first: Option<(f64, u32)> = None;
-        for pair in self.active(index, pairs) {
-            let eps = self.eps(pair, &motions[pair.member]);
-            let gap = |offset: f64| {
-                lane.flight.at_offset(offset, &mut motions);
-                pair.collider.gap(&motions[pair.member], &pair.plane)
-            };
-            let found = find_impact(gap, segment.length, eps, self.plan.options().finder);
-            match found.outcome {
-                Outcome::Clear => {}
-                Outcome::At(t) => {
-                    if first.is_none_or(|(earliest, _)| t < earliest) {
-                        first = Some((t, found.iterations));
-                    }
-                }
-                Outcome::AlreadyTouching => {
-                    let why = format!("the gap stays within ε = {eps:e} m");
-                    return Err(self.pair_failure(index, pair, segment.start, Failure::AccumulatingImpacts(why)));
-                }
-                Outcome::Overlap(depth) => {
-                    return Err(self.pair_failure(index, pair, segment.start, Failure::Overlap(depth)));
-                }
-                Outcome::Stalled(t) => {
-                    return Err(self.pair_failure(index, pair, segment.start + t, Failure::Stalled(eps)));
-                }
-            }
-        }
-        Ok(first)
-    }
-
-    /// The pairs whose body still moves.
-    fn active<'a>(&self, index: usize, pairs: &'a [Pair]) -> impl Iterator<Item = &'a Pair> + use<'a, '_> {
-        let lane = &self.lanes[index];
-        let members = &self.plan.groups()[lane.group].members;
-        pairs.iter().filter(move |pair| !lane.held.contains(&members[pair.member]))
-    }
-
-    /// Answers every pair that touches and approaches at the front, until none approaches.
-    fn answer_touches(
-        &mut self,
-        index: usize,
-        iterations: u32,
-        record: &mut Option<&mut Trajectory>,
-    ) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
-        let pairs = &plan.groups()[self.lanes[index].group].pairs;
-        if pairs.is_empty() {
-            return Ok(());
-        }
-        for _ in 0..ROUNDS_AT_ONCE {
-            let lane = &mut self.lanes[index];
-            let time = lane.flight.front();
-            let mut motions = lane.motions.clone();
-            lane.flight.at(time, &mut motions);
-            let Some((pair, touching)) = self.active(index, pairs).find_map(|pair| {
-                let motion = &motions[pair.member];
-                let gap = pair.collider.gap(motion, &pair.plane);
-                let eps = self.eps(pair, motion);
-                (gap <= eps)
-                    .then(|| (pair, approaching(pair, motion, gap.max(0.0) + TOUCH_GAP * pair.size)))
-                    .filter(|(_, touching)| !touching.is_empty())
-            }) else {
-                return Ok(());
-            };
-            self.answer(index, pair, &touching, &mut motions, iterations, record)?;
-        }
-        let why = format!("{ROUNDS_AT_ONCE} impulses at one instant");
-        let pair = &pairs[0];
-        Err(self.pair_failure(index, pair, self.lanes[index].flight.front(), Failure::AccumulatingImpacts(why)))
-    }
-
-    /// Answers one touch: bounce or stick, and books the event.
-    fn answer(
-        &mut self,
-        index: usize,
-        pair: &Pair,
-        touching: &[(usize, Vector3)],
-        motions: &mut [BodyMotion],
-        iterations: u32,
-        record: &mut Option<&mut Trajectory>,
-    ) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
-        let lane = &mut self.lanes[index];
-        let body = plan.groups()[lane.group].members[pair.member];
-        let time = lane.flight.front();
-        let motion = &mut motions[pair.member];
-        let before = *motion;
-        let point = touching.iter().map(|(_, p)| p).sum::<Vector3>() / touching.len() as f64;
-
-        let Answer { impulse, energy_lost } = match pair.material.response {
-            Response::Bounce => {
-                let inverse = plan.bodies()[body].properties.inv_inertia();
-                bounce::bounce(motion, &inverse, &point, &pair.plane.normal, pair.material.restitution)
-            }
-            Response::Stick => stick::stick(motion),
-        };
-        let after = *motion;
-        if pair.material.response == Response::Stick {
-            lane.held.push(body);
-        }
-
-        // the flight goes on from the new motion; where bodies are held, with fewer coordinates
-        lane.earlier.add(lane.flight.counts());
-        let failed = |error: Error| SimulationError {
-            time,
-            bodies: vec![plan.bodies()[body].name.clone()],
-            kind: Failure::Refused(error.to_string()),
-            trajectory: None,
-        };
-        let (exact, since) = lane.flight.clock();
-        lane.flight =
-            plan.flight_for(lane.group, time, &self.controls[lane.group], motions, &lane.held).map_err(failed)?;
-        lane.flight.set_clock(exact, since);
-        lane.motions.copy_from_slice(motions);
-        if let (Some(run), Response::Stick) = (record, pair.material.response) {
-            lane.phase = run.phases.len();
-            run.phases.push(plan.phase(lane.group, time, motions, &lane.held).map_err(failed)?);
-        }
-
-        let numbers: Vec<_> = touching.iter().map(|(i, _)| *i).collect();
-        self.events.push(Event {
-            time,
-            kind: match pair.material.response {
-                Response::Bounce => EventKind::Bounce,
-                Response::Stick => EventKind::Stick,
-            },
-            name: String::new(),
-            passage: None,
-            bodies: [pair.obstacle, body],
-            point,
-            normal: pair.plane.normal,
-            impulse,
-            features: pair.collider.features(&numbers),
-            iterations,
-            velocity: [before.velocity, after.velocity],
-            angular_velocity: [before.angular_velocity, after.angular_velocity],
-            energy_lost,
-        });
-        Ok(())
-    }
-
-    fn pair_failure(&self, index: usize, pair: &Pair, time: f64, kind: Failure) -> SimulationError {
-        let members = &self.plan.groups()[self.lanes[index].group].members;
-        let bodies = [members[pair.member], pair.obstacle].map(|i| self.plan.bodies()[i].name.clone()).to_vec();
-        SimulationError { time, bodies, kind, trajectory: None }
-    }
-
     fn failure(&self, index: usize, time: f64, kind: Failure) -> SimulationError {
         let members = &self.plan.groups()[self.lanes[index].group].members;
         let bodies = members.iter().map(|&i| self.plan.bodies()[i].name.clone()).collect();
         SimulationError { time, bodies, kind, trajectory: None }
     }
-}
-
-/// The touching points of a pair that approach each other, within `reach` [m] of the plane.
-fn approaching(pair: &Pair, motion: &BodyMotion, reach: f64) -> Vec<(usize, Vector3)> {
-    let rounding = EPS_ROUNDING * (motion.velocity.norm() + motion.angular_velocity.norm() * pair.size);
-    let mut touching = pair.collider.touching(motion, &pair.plane, reach);
-    touching.retain(|(_, p)| pair.plane.normal.dot(&motion.velocity_at(p)) < -rounding);
-    touching
 }
 
 impl Plan {

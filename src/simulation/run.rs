@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use super::clock::thread_seconds;
 use super::estimate::{self, Comparison};
-use super::{Failure, RunError, Simulation, SimulationError};
+use super::{Failure, Grain, RunError, Simulation, SimulationError};
 use crate::error::{Error, Result};
 use crate::freedom::Scales;
 use crate::integrator::{Control, Limits, Mesh, Method};
 use crate::plan::Plan;
 use crate::scene::{RunOptions, Scene, Span};
-use crate::trajectory::Trajectory;
+use crate::trajectory::{EventKind, Trajectory};
 
 /// How far a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,7 +92,7 @@ impl Plan {
     ) -> Result<Trajectory, RunError> {
         let course = Course { plan: Arc::new(self.clone()), span, times };
         let began = thread_seconds();
-        let mut run = course.pass(self.controls(&Control::Step(step)), 1, observer).map_err(Box::new)?.0;
+        let mut run = course.pass(self.controls(&Control::Step(step)), Grain::FINE, 1, observer).map_err(Box::new)?.0;
         run.report.seconds.run = thread_seconds() - began;
         run.report.step = step;
         run.report.horizon = run.end;
@@ -100,21 +100,26 @@ impl Plan {
         if !self.options().estimate {
             return Ok(run);
         }
-        if self.groups().iter().all(|group| group.method == Method::Exact) {
+        if self.is_closed() && !has_impacts(&run) {
             run.report.error_estimate = Some(self.rounding(span));
             run.report.estimated_by = "rounding of the closed form".into();
             return Ok(run);
         }
 
         let began = thread_seconds();
-        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), 2, observer);
+        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), Grain::times(2.0), 2, observer);
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
-                let gain = libm::pow(2.0, f64::from(self.method().order()));
+                let gain = if has_impacts(&run) { EVENT_GAIN } else { full_gain(self.method()) };
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
-                run.report.error_estimate = Some(comparison.worst);
+                run.report.error_estimate = Some(comparison.within_horizon);
                 run.report.estimated_by = "against a second run with twice the step".into();
+                if comparison.worst > comparison.within_horizon {
+                    run.report.horizon = comparison.horizon;
+                    run.report.estimated_by =
+                        "up to the horizon, after which the impacts of a second run differ".into();
+                }
             }
             Err(error) if error.kind.is_final() => return Err(Box::new(error).into()),
             Err(_) => run.report.estimated_by = "not estimated: a second run with twice the step broke off".into(),
@@ -143,17 +148,22 @@ impl Plan {
         let course = Course { plan: Arc::new(self.clone()), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(self, span, tolerance);
-        let began = thread_seconds();
+        let (began, mut mismatches) = (thread_seconds(), 0);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
-            let (mut run, nodes) =
-                course.attempt(self.controls(&pace.control), 3 * number + 1, observer, &mut failure)?;
+            let (mut run, nodes) = course.attempt(
+                self.controls(&pace.control),
+                pace.grain(4.0),
+                3 * number + 1,
+                observer,
+                &mut failure,
+            )?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
 
             // one run is enough where nobody asks for its error, or where rounding is all there is
-            let closed = self.groups().iter().all(|group| group.method == Method::Exact && group.pairs.is_empty());
+            let closed = self.is_closed() && !has_impacts(&run);
             if closed && estimates {
                 run.report.error_estimate = Some(self.rounding(span));
                 run.report.estimated_by = "rounding of the closed form".into();
@@ -167,22 +177,30 @@ impl Plan {
             let coarser = run;
             let nodes: Vec<Arc<[f64]>> = nodes.into_iter().map(Into::into).collect();
             let cut = |pieces| nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.clone(), pieces })).collect();
-            let (mut coarse, _) = course.attempt(cut(2), 3 * number + 2, observer, &mut None)?;
+            let (mut coarse, _) = course.attempt(cut(2), pace.grain(2.0), 3 * number + 2, observer, &mut None)?;
             coarse.report.length_scale = coarser.report.length_scale;
             let before = thread_seconds();
             failure = None;
-            let (mut run, _) = course.attempt(cut(4), 3 * number + 3, observer, &mut failure)?;
+            let (mut run, _) = course.attempt(cut(4), pace.grain(1.0), 3 * number + 3, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
-            let gain = observed_gain(self.method(), &coarser, &coarse, &run);
+            let gain =
+                if !has_impacts(&run) { observed_gain(self.method(), &coarser, &coarse, &run) } else { EVENT_GAIN };
             let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
             run.report.error_estimate = Some(comparison.within_horizon);
-            run.report.estimated_by = "against runs with steps twice and four times as long".into();
+            run.report.estimated_by = if comparison.worst.is_finite() {
+                "against runs with steps twice and four times as long".into()
+            } else {
+                "up to the horizon, after which the impacts of a second run differ".into()
+            };
             run.report.met = Some(comparison.worst <= tolerance);
             let next = pace.finer(self.method(), tolerance, comparison.worst);
             let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
-            if comparison.worst <= tolerance || pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS {
+            let differs = comparison.worst.is_infinite() && has_impacts(&run);
+            mismatches += u32::from(differs);
+            let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
+            if comparison.worst <= tolerance || is_last {
                 return finish(run, span, tolerance, &pace, failure).map(|mut run| {
                     run.report.horizon = comparison.horizon;
                     run
@@ -192,6 +210,11 @@ impl Plan {
             pace.measure_by(run.report.length_scale);
         }
         Err(Error::refused("run", "no pass was made").into())
+    }
+
+    /// Whether every flight has a closed form.
+    fn is_closed(&self) -> bool {
+        self.groups().iter().all(|group| group.method == Method::Exact)
     }
 
     /// Error that rounding alone leaves of a run [-]: some ε for every radian turned.
@@ -244,11 +267,12 @@ impl Course<'_> {
     fn attempt(
         &self,
         controls: Vec<Control>,
+        grain: Grain,
         number: u32,
         observer: Observer<'_>,
         failure: &mut Option<SimulationError>,
     ) -> Result<(Trajectory, Vec<Vec<f64>>), RunError> {
-        match self.pass(controls, number, observer) {
+        match self.pass(controls, grain, number, observer) {
             Ok(done) => Ok(done),
             Err(error) if error.kind.is_final() => Err(Box::new(error).into()),
             Err(mut error) => {
@@ -265,6 +289,7 @@ impl Course<'_> {
     fn pass(
         &self,
         controls: Vec<Control>,
+        grain: Grain,
         number: u32,
         observer: Observer<'_>,
     ) -> Result<(Trajectory, Vec<Vec<f64>>), SimulationError> {
@@ -277,47 +302,68 @@ impl Course<'_> {
             trajectory: None,
         };
         let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
+        simulation.grain = grain;
+        let lanes = simulation.lanes.len();
         let mut run = Trajectory::new(plan.clone(), times.to_vec());
         for (group, spec) in plan.groups().iter().enumerate() {
             let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
             run.phases.push(plan.phase(group, span.start, &motions, &[]).map_err(refused)?);
         }
 
+        // those that may meet go by events; the others each on its own
         let mut broken: Option<SimulationError> = None;
-        let lanes = simulation.lanes.len();
-        for lane in 0..lanes {
+        let alone = simulation.lanes_alone();
+        let part = |of_all: usize| of_all as f64 / lanes as f64;
+        let meeting = lanes - alone.len();
+        if meeting > 0 {
+            let mut tell = |done: f64| observer(Progress { fraction: part(meeting) * done, pass: number });
+            broken = simulation.advance_meeting(span.end, &mut Some(&mut run), &mut tell).err();
+        }
+        let until = |simulation: &Simulation, broken: &Option<SimulationError>| {
             let stop = broken.as_ref().map_or(span.end, |error| error.time);
-            let to = |simulation: &Simulation| simulation.ended.as_ref().map_or(stop, |(time, _)| time.min(stop));
-            let mut record = Some(&mut run);
-            let mut ended = simulation.answer_touches(lane, 0, &mut record);
-            while ended.is_ok() && simulation.lanes[lane].flight.front() < to(&simulation) {
-                ended = simulation.step_lane(lane, &mut record);
+            simulation.ended.as_ref().map_or(stop, |(time, _)| time.min(stop))
+        };
+        for (k, &lane) in alone.iter().enumerate() {
+            if broken.as_ref().is_some_and(|error| error.kind == Failure::Interrupted) {
+                break;
+            }
+            let mut ended = Ok(());
+            while ended.is_ok() && simulation.lanes[lane].flight.front() < until(&simulation, &broken) {
+                ended = simulation.step_lane(lane, &mut Some(&mut run));
                 let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
-                let progress = Progress { fraction: (lane as f64 + done) / lanes as f64, pass: number };
+                let progress = Progress { fraction: part(meeting + k) + part(1) * done, pass: number };
                 if observer(progress).is_break() {
                     let time = simulation.lanes[lane].flight.front();
                     ended = Err(simulation.failure(lane, time, Failure::Interrupted));
                 }
             }
-            let to = to(&simulation);
+            if let Err(error) = ended
+                && broken.as_ref().is_none_or(|other| error.time < other.time)
+            {
+                broken = Some(error);
+            }
+        }
+        for lane in 0..lanes {
+            // a step that was still open where a run ends is known up to there
+            if let Err(error) = simulation.finish_step(lane, &mut Some(&mut run)) {
+                if broken.as_ref().is_none_or(|other| error.time < other.time) {
+                    broken = Some(error);
+                }
+                continue;
+            }
+            let to = until(&simulation, &broken);
             let lane = &mut simulation.lanes[lane];
             let mut motions = lane.motions.clone();
             lane.flight.at(lane.flight.front(), &mut motions);
             run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
-            if let Err(error) = ended {
-                let stop = error.kind == Failure::Interrupted;
-                if broken.as_ref().is_none_or(|other| error.time < other.time) {
-                    broken = Some(error);
-                }
-                if stop {
-                    break;
-                }
-            }
         }
 
         run.report.counts = simulation.counts();
-        run.report.impacts = simulation.events.len() as u64;
+        run.report.impacts =
+            simulation.events.iter().filter(|e| matches!(e.kind, EventKind::Bounce | EventKind::Stick)).count() as u64;
         run.report.impact_iterations = simulation.iterations;
+        run.heat = simulation.heat;
+        run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
         // an event that ends the run goes before what broke off behind it
@@ -336,6 +382,11 @@ impl Course<'_> {
             }
         }
     }
+}
+
+/// Whether bodies have touched.
+fn has_impacts(run: &Trajectory) -> bool {
+    run.events.iter().any(|event| event.kind != EventKind::User)
 }
 
 /// How many times smaller the error is at half the step, where the method shows its order [-].
@@ -375,6 +426,15 @@ impl Pace {
         let scales = Scales { length: plan.first_length_scale(span), time };
         let local = (part * tolerance).clamp(LEAST_LOCAL, MOST_LOCAL);
         Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
+    }
+
+    /// How finely a pass looks at contacts, `times` as coarse as the finest of a round.
+    fn grain(&self, times: f64) -> Grain {
+        let step = match &self.control {
+            Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(2.0),
+            Control::Step(_) | Control::Mesh(_) => 1.0,
+        };
+        Grain { eps: times, step: 0.25 * times * step }
     }
 
     /// What should meet the tolerance, where this pace left an estimate.
@@ -417,6 +477,15 @@ impl Pace {
     }
 }
 
+/// By how much less a run with impacts is wrong than one that is twice as coarse [-]: both lie within their ε,
+/// so twice their difference is taken.
+const EVENT_GAIN: f64 = 1.5;
+/// Rounds in which the impacts of the passes differ, after which they are said to [-]: shorter steps help where
+/// these made the difference, not where ε did.
+const MISMATCHES: u32 = 1;
+/// Error of a flight's step up to which contact steps keep their length [-], and their order.
+const CONTACT_LOCAL: f64 = 1.0e-8;
+const CONTACT_ORDER: f64 = 4.0;
 /// Rounds of three passes to a tolerance [-]: the first guess and its halving find the order's regime, the
 /// rest comes down to rounding from an estimate at most 2⁻⁵ a round.
 const ROUNDS: u32 = 24;

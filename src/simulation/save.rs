@@ -4,12 +4,15 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::lasting::{Led, Together};
+use super::near::{Due, Window};
 use super::{Lane, Simulation};
+use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
 use crate::integrator::{Control, Counts, Front, Segment};
 use crate::scene::{RunOptions, Scene, Span};
 use crate::state::BodyMotion;
-use crate::trajectory::Event;
+use crate::trajectory::{Event, Heat};
 
 /// What a saved state holds; JSON, in which every `f64` is written so that it reads back to the bit.
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -20,7 +23,14 @@ struct Saved {
     options: RunOptions,
     time: f64,
     lanes: Vec<SavedLane>,
+    windows: Vec<Option<Window>>,
+    due: Vec<Due>,
+    together: Vec<Option<Together>>,
+    together_number: u64,
+    stuck: Vec<usize>,
+    bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
+    heat: Vec<Heat>,
     iterations: u64,
 }
 
@@ -31,7 +41,10 @@ struct SavedLane {
     segment: Segment,
     counts: Counts,
     earlier: Counts,
+    number: u64,
+    pending: Option<f64>,
     held: Vec<usize>,
+    led: Option<usize>,
     motions: Vec<BodyMotion>,
     #[serde(default)]
     watchers: Vec<super::observe::Watcher>,
@@ -40,7 +53,7 @@ struct SavedLane {
 }
 
 /// Version of the file's layout.
-const VERSION: &str = "state 2";
+const VERSION: &str = "state 4";
 
 impl Simulation {
     /// Writes the running state to a file, conventionally `.bryla`.
@@ -54,7 +67,11 @@ impl Simulation {
             segment: lane.flight.segment().clone(),
             counts: *lane.flight.counts(),
             earlier: lane.earlier,
+            number: lane.number,
+            // a switch that never comes has no number in a file
+            pending: lane.pending.map(|switch| switch.min(f64::MAX)),
             held: lane.held.clone(),
+            led: lane.led,
             motions: lane.motions.clone(),
             watchers: lane.watchers.clone(),
             switched: lane.switched.clone(),
@@ -65,7 +82,14 @@ impl Simulation {
             options: self.plan.options().clone(),
             time: self.time,
             lanes: lanes.collect(),
+            windows: self.near.windows.clone(),
+            due: self.near.due.clone().into_sorted_vec(),
+            together: self.together.clone(),
+            together_number: self.together_number,
+            stuck: self.stuck.clone(),
+            bounces: self.bounces.clone(),
             events: self.events.clone(),
+            heat: self.heat.clone(),
             iterations: self.iterations,
         };
         let path = path.as_ref();
@@ -95,7 +119,13 @@ impl Simulation {
             lane.continue_from(&plan, group, step, saved)
                 .ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
         }
+        simulation.near.restore(saved.windows, saved.due);
+        simulation.together = saved.together;
+        simulation.together_number = saved.together_number;
+        simulation.stuck = saved.stuck;
+        simulation.bounces = saved.bounces;
         simulation.events = saved.events;
+        simulation.heat = saved.heat;
         simulation.iterations = saved.iterations;
         Ok(simulation)
     }
@@ -116,9 +146,17 @@ impl Lane {
         if !fits {
             return None;
         }
-        match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
-            Ok(flight) => self.flight = flight,
+        self.charts = match plan.charts(group, &saved.held) {
+            Ok(charts) => charts,
             Err(error) => return Some(Err(error)),
+        };
+        if saved.led.is_some() {
+            self.flight = Box::new(Led::new(self.charts.clone(), saved.front.time, &saved.motions));
+        } else {
+            match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
+                Ok(flight) => self.flight = flight,
+                Err(error) => return Some(Err(error)),
+            }
         }
         let n = self.flight.saved_front().y.len();
         if saved.front.y.len() != n || saved.front.rest.len() != n || !saved.segment.fits(n) {
@@ -126,7 +164,8 @@ impl Lane {
         }
         self.flight.resume(&saved.front, saved.segment, saved.counts);
         self.earlier = saved.earlier;
-        self.held = saved.held;
+        (self.number, self.pending) = (saved.number, saved.pending);
+        (self.held, self.led) = (saved.held, saved.led);
         self.motions = saved.motions;
         self.watchers = saved.watchers;
         self.switched = saved.switched;

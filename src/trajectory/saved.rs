@@ -7,7 +7,7 @@ use serde::de::Error as _;
 use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Event, Phase, Trajectory};
+use super::{Event, Heat, Phase, Trajectory};
 use crate::freedom::Chart;
 use crate::plan::Plan;
 use crate::report::Report;
@@ -24,6 +24,7 @@ struct Saved<'a> {
     states: Cow<'a, [BodyState]>,
     phases: Cow<'a, [Phase]>,
     events: Cow<'a, [Event]>,
+    heat: Cow<'a, [Heat]>,
     report: Cow<'a, Report>,
     end: f64,
     ended_by: Option<Cow<'a, str>>,
@@ -57,6 +58,7 @@ impl Serialize for Trajectory {
             states: Cow::Borrowed(&self.states),
             phases: Cow::Borrowed(&self.phases),
             events: Cow::Borrowed(&self.events),
+            heat: Cow::Borrowed(&self.heat),
             report: Cow::Borrowed(&self.report),
             end: self.end,
             ended_by: self.ended_by.as_deref().map(Cow::Borrowed),
@@ -79,6 +81,7 @@ impl<'de> Deserialize<'de> for Trajectory {
             states: saved.states.into_owned(),
             phases: saved.phases.into_owned(),
             events: saved.events.into_owned(),
+            heat: saved.heat.into_owned(),
             report: saved.report.into_owned(),
             end: saved.end,
             ended_by: saved.ended_by.map(Cow::into_owned),

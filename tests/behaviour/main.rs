@@ -10,9 +10,11 @@ mod effects;
 mod events;
 mod files;
 mod freedoms;
+mod impacts;
 mod layers;
 mod order;
 mod promises;
+mod rest;
 mod switching;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};

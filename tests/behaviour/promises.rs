@@ -1,7 +1,7 @@
 //! Bits, saved states, and samples.
 
 use super::{free_body, last};
-use bryla::{Drag, Method, Record, RunOptions, Scene, Simulation, Thruster, UniformGravity};
+use bryla::{Body, Cuboid, Drag, HalfSpace, Method, Record, RunOptions, Scene, Simulation, Thruster, UniformGravity};
 
 /// The die on its table, with everything that a saved state must carry.
 fn die() -> Scene {
@@ -48,6 +48,30 @@ fn a_saved_state_goes_on_with_the_same_bits() {
         }
     }
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_contact_that_is_saved_goes_on_with_the_same_bits() {
+    let mut scene = Scene::new();
+    scene.add(Body::new("floor", HalfSpace::new([0.0, 0.0, 1.0], 0.0)).fixed().friction(0.3)).unwrap();
+    let cube = Body::new("cube", Cuboid::new([0.1; 3])).mass(1.0).position([0.0, 0.0, 0.1]).friction(0.3);
+    scene.add(cube.velocity([2.0, 0.0, 0.0]).angular_velocity([0.0, 0.0, 3.0])).unwrap();
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -10.0]));
+    let plan = scene.compile(&RunOptions::method(Method::Rk4).step(1e-2).estimate(false)).unwrap();
+    let path = std::env::temp_dir().join(format!("bryla-contact-{}.bryla", std::process::id()));
+    let mut unbroken = plan.start(0.0).unwrap();
+    let mut broken = plan.start(0.0).unwrap();
+    for t in [0.1234, 0.4, 1.0] {
+        unbroken.advance(t).unwrap();
+        broken.advance(t).unwrap();
+        broken.save(&path).unwrap();
+        broken = Simulation::resume(&path).unwrap();
+        assert_eq!(unbroken.state("cube").unwrap(), broken.state("cube").unwrap(), "at {t}");
+        assert_eq!(unbroken.events(), broken.events());
+    }
+    std::fs::remove_file(&path).unwrap();
+    // it has come to rest
+    assert_eq!(unbroken.state("cube").unwrap().linear_momentum, bryla::math::Vector3::zeros());
 }
 
 #[test]

@@ -140,12 +140,18 @@ impl Coulomb<'_> {
         if self.scale() == 0.0 {
             return Solution { impulse: vec![0.0; self.q.len()], residual: 0.0 };
         }
-        let grip = self.grip();
-        let mut best = self.certify(&grip);
+        let none = vec![0.0; self.q.len()];
+        let (mut best, mut starts) = (self.certify(&none), vec![none]);
         if best.residual <= CERTIFIED {
             return best;
         }
-        let mut starts = vec![best.impulse.clone(), vec![0.0; self.q.len()]];
+        if self.slide.iter().all(Option::is_none) {
+            best = best.or(self.certify(&self.grip()));
+            if best.residual <= CERTIFIED {
+                return best;
+            }
+            starts.insert(0, best.impulse.clone());
+        }
         for start in &starts {
             best = best.or(self.certify(&newton::solve(self, start, newton::ROUNDS, 1.0)));
             if best.residual <= CERTIFIED {

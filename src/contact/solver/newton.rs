@@ -16,6 +16,8 @@ use super::{Coulomb, triple};
 
 /// Rounds before the next solver is asked [-]; few problems need more than ten.
 pub const ROUNDS: usize = 40;
+/// F over the largest velocity before below which a round that does not halve it has met rounding [-].
+const ROUNDED: f64 = 1.0e-13;
 /// Halvings of a step that does not lower F [-].
 const HALVINGS: usize = 6;
 
@@ -25,10 +27,13 @@ pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize, rho: f64) -> V
     let mut p = start.to_vec();
     let mut f = equations(problem, &p, rho);
     let mut best = (p.clone(), largest(&f));
+    let mut before = f64::INFINITY;
     for _ in 0..rounds {
-        if largest(&f) <= 4.0 * f64::EPSILON * scale {
+        let left = largest(&f);
+        if left <= 4.0 * f64::EPSILON * scale || (left <= ROUNDED * scale && left > 0.5 * before) {
             break;
         }
+        before = left;
         let minus: Vec<f64> = f.iter().map(|f| -f).collect();
         let step = least_norm(&slope(problem, &p, rho), &minus);
 

@@ -1,0 +1,493 @@
+//! The guaranteed search: conservative advancement with a bound of second order.
+//!
+//! Along any unit direction n(t) the separation of the bodies is a lower bound of their signed distance,
+//!
+//! ```text
+//! s(t) = min n·b − max n·a = n·Δ(t) − h_A(n) − h_B(−n)         Δ = c_B − c_A,  h the support from c
+//! ```
+//!
+//! so from the closest features at t, whose normal n makes `s` the signed distance itself, the search looks
+//! ahead: let n turn with a constant angular velocity Ω, and let every pair of vertices go on along its
+//! tangent. The least of the tangents is concave in time, so it lies above the chord between its values
+//! at 0 and h, and a bound K of all second derivatives gives
+//!
+//! ```text
+//! s(t + τ) ≥ (1 − τ/h) s(t) + (τ/h) L(h) − ½ K τ²        0 ≤ τ ≤ h
+//! L(h)     = (n + h Ω×n)·Δ + h n·Δ′ − h_A(n + h n×(ω_A − Ω)) − h_B(−n − h n×(ω_B − Ω))
+//! ```
+//!
+//! L(h) costs two supports. The time up to which the right side stays above ½ ε is proved free, and the
+//! search goes there. Close to contact the chord is the secant through the gap now and the gap to be, and
+//! what it leaves is of second order: digits double in every round. Ω decides how good the tangent is:
+//!
+//! | closest features | Ω | because |
+//! |---|---|---|
+//! | a face | ω of its body | the face's plane separates, and turns with the body |
+//! | edge, edge | such that n stays perpendicular to both | so does the common normal |
+//! | edge, vertex | such that n stays perpendicular to the edge | |
+//! | any | 0 | far away, where n hardly matters |
+//!
+//! For Ω = 0 a body's part of the bound may also be the plain one of Mirtich (1996), `τ |ω × n| r`, or
+//! for fast spins the support of all that it sweeps: of a steady spin the solid of revolution, else the
+//! ball of its radius. Whatever is least counts.
+//!
+//! **What is proved.** `s` is proved positive on the whole way, so nothing is missed and nothing is late,
+//! up to the rounding of poses and supports, which `ε` is kept above. Rotation is bounded by `r`, the
+//! largest distance from the moving point.
+
+use super::motion::{Instant, MotionBounds, Moving};
+use super::{Found, Outcome};
+use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, Piece};
+use crate::error::Result;
+use crate::math::{Matrix3, Vector3, quaternion};
+
+/// A convex body and its motion.
+struct Side<'a> {
+    piece: Piece<'a>,
+    motion: &'a dyn Moving,
+    /// From the moving point to the piece's centre, shape axes [m].
+    offset: Vector3,
+    /// Largest distance of the core from the moving point [m].
+    radius: f64,
+    /// Whether it is a half space: all of it on one side of a plane.
+    is_plane: bool,
+    /// Where the last climb ended.
+    vertex: u32,
+    /// What a steady spin sweeps.
+    swept: Option<Swept>,
+}
+
+/// The solid of revolution that a body fills when it spins: for each vertex how far along the axis and
+/// how far from it [m].
+struct Swept {
+    spin: Vector3,
+    axis: Vector3,
+    profile: Vec<[f64; 2]>,
+}
+
+impl Swept {
+    fn new(side: &Side<'_>, corners: &[Vector3], placed: &Placed) -> Self {
+        let spin = placed.instant.angular_velocity;
+        let axis = spin / spin.norm();
+        let axis_body = placed.rotation.tr_mul(&axis);
+        let along_and_from = |v: &Vector3| {
+            let v = v + side.offset;
+            [v.dot(&axis_body), v.cross(&axis_body).norm()]
+        };
+        Self { spin, axis, profile: corners.iter().map(along_and_from).collect() }
+    }
+
+    /// Its support along `d` [m].
+    fn height(&self, d: &Vector3) -> f64 {
+        let (along, from) = (d.dot(&self.axis), d.cross(&self.axis).norm());
+        self.profile.iter().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// A body at an instant.
+struct Placed {
+    instant: Instant,
+    rotation: Matrix3,
+}
+
+impl<'a> Side<'a> {
+    fn new(piece: Piece<'a>, motion: &'a dyn Moving) -> Self {
+        let offset = piece.center - motion.center();
+        let is_plane = piece.plane().is_some();
+        let radius = if is_plane { 0.0 } else { offset.norm() + piece.reach - piece.rounding() };
+        Self { piece, motion, offset, radius, is_plane, vertex: 0, swept: None }
+    }
+
+    fn at(&self, t: f64) -> Placed {
+        let instant = self.motion.at(t);
+        Placed { rotation: quaternion::to_matrix(&instant.pose.orientation), instant }
+    }
+
+    /// The support `max d·(a − c)` of the core, from the moving point; of a half space its plane's.
+    fn height(&mut self, placed: &Placed, d: &Vector3) -> f64 {
+        let d = placed.rotation.tr_mul(d);
+        let about_center = if self.is_plane { 0.0 } else { self.piece.height(&d, &mut self.vertex) };
+        d.dot(&self.offset) + about_center
+    }
+
+    /// Direction of an edge, world axes.
+    fn edge(&self, placed: &Placed, edge: u32) -> Vector3 {
+        self.piece.edge(edge).map_or_else(Vector3::zeros, |e| placed.rotation * e)
+    }
+}
+
+/// The pair at an instant, and what the bounds are worked out from.
+struct Look {
+    time: f64,
+    closest: ClosestFeatures,
+    a: Placed,
+    b: Placed,
+    /// From the moving point of A to that of B [m], and its rate [m/s].
+    between: Vector3,
+    approach: Vector3,
+    /// Supports of both along the normal [m].
+    heights: [f64; 2],
+    /// Rounding of a separation [m].
+    error: f64,
+    /// Largest speed of a point of one body as seen from the other [m/s].
+    speed: f64,
+    /// How fast the closest points approach along the normal [m/s].
+    closing: f64,
+}
+
+/// What the search is about.
+#[derive(Clone, Copy)]
+enum Phase {
+    /// The gap was above ε: it must not fall below ½ ε unseen.
+    Free,
+    /// The gap is within ε from the start and must not fall below this [m].
+    Leaving(f64),
+    /// The gap came within ε at this time [s] with next to no speed: does it open again?
+    Grazing(f64),
+}
+
+/// A search for the first impact of two bodies.
+pub(super) struct Search<'a> {
+    a: Side<'a>,
+    b: Side<'a>,
+    cache: &'a mut PairCache,
+    queries: u32,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        a: (Piece<'a>, &'a dyn Moving),
+        b: (Piece<'a>, &'a dyn Moving),
+        cache: &'a mut PairCache,
+    ) -> Self {
+        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0 }
+    }
+
+    /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
+    pub(super) fn run(&mut self, from: f64, to: f64, eps: f64) -> Result<Found> {
+        let mut look = self.look(from)?;
+        let start = [look.a.instant.center.norm(), look.b.instant.center.norm()];
+        let mut eps_here = eps.max(self.rounding(&look, start, from));
+        let gap = look.closest.signed_distance;
+        let mut phase = if gap > eps_here {
+            Phase::Free
+        } else if gap < -eps_here {
+            return Ok(self.found(Outcome::Overlap, from, 0));
+        } else {
+            // it may sink by what rounding hides, else not even the opening of the gap could be proved
+            Phase::Leaving((0.5 * look.closest.lower).min(gap - LEAST_SINK * look.error))
+        };
+        let mut stays = 0;
+
+        for round in 0..ROUNDS {
+            let gap = look.closest.signed_distance;
+            let t = look.time;
+            match phase {
+                Phase::Free if gap <= eps_here => {
+                    if look.closest.lower <= 0.0 {
+                        return Ok(self.found(Outcome::Stalled, t, round));
+                    }
+                    // what comes with speed is an impact; what hardly moves may be about to leave
+                    let ahead = self.advance(&look, -eps_here, to - t, TRIALS);
+                    if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
+                        return Ok(self.found(Outcome::At, t, round));
+                    }
+                    (phase, stays) = (Phase::Grazing(t), 0);
+                }
+                Phase::Leaving(_) if gap > eps_here => phase = Phase::Free,
+                Phase::Grazing(since) if gap > eps_here => {
+                    return Ok(Found { until: t, ..self.found(Outcome::Grazing, since, round) });
+                }
+                _ => {}
+            }
+
+            // as far as it is proved
+            let level = match phase {
+                Phase::Free => 0.5 * eps_here,
+                Phase::Leaving(floor) => floor,
+                Phase::Grazing(_) => -eps_here,
+            };
+            let trials = if matches!(phase, Phase::Free) { TRIALS } else { TRIALS_WITHIN };
+            let step = self.advance(&look, level, to - t, trials);
+            if !matches!(phase, Phase::Free) {
+                stays += 1;
+            }
+            match phase {
+                Phase::Leaving(_) if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
+                    let outcome =
+                        if t > from && look.closest.lower > 0.0 { Outcome::At } else { Outcome::AlreadyTouching };
+                    return Ok(self.found(outcome, t, round));
+                }
+                Phase::Grazing(since)
+                    if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
+                {
+                    return Ok(self.found(Outcome::At, since, round));
+                }
+                _ => {}
+            }
+            if step >= to - t {
+                let outcome = if let Phase::Grazing(since) = phase {
+                    return Ok(Found { until: to, ..self.found(Outcome::Grazing, since, round) });
+                } else {
+                    Outcome::Clear
+                };
+                return Ok(self.found(outcome, to, round));
+            }
+            // a leap over a small bounce would land where it began: half of it shows whether the gap opens
+            let next = if matches!(phase, Phase::Leaving(_)) { t + 0.5 * step } else { t + step };
+            if next <= t {
+                return Ok(self.found(Outcome::Stalled, t, round));
+            }
+            look = self.look(next)?;
+            eps_here = eps.max(self.rounding(&look, start, from));
+        }
+        Ok(self.found(Outcome::Stalled, look.time, ROUNDS))
+    }
+
+    fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
+        Found { outcome, time, until: time, iterations, queries: self.queries }
+    }
+
+    /// The closest features at `t`, and what the bounds need.
+    fn look(&mut self, t: f64) -> Result<Look> {
+        let (a, b) = (self.a.at(t), self.b.at(t));
+        let (pose_a, pose_b) = (&a.instant.pose, &b.instant.pose);
+        let closest = self.a.piece.closest(pose_a, &self.b.piece, pose_b, self.cache, Accuracy::Exact)?;
+        self.queries += 1;
+        let n = closest.normal;
+        let heights = [self.a.height(&a, &n), self.b.height(&b, &-n)];
+        let between = b.instant.center - a.instant.center;
+        let approach = b.instant.velocity - a.instant.velocity;
+        let speed = approach.norm()
+            + a.instant.angular_velocity.norm() * self.a.radius
+            + b.instant.angular_velocity.norm() * self.b.radius;
+        let closing = n.dot(&(a.instant.velocity_at(&closest.point_a) - b.instant.velocity_at(&closest.point_b)));
+        let error = SUPPORT_UNITS * f64::EPSILON * (between.norm() + self.a.radius + self.b.radius);
+        Ok(Look { time: t, closest, a, b, between, approach, heights, error, speed, closing })
+    }
+
+    /// Gap below which rounding decides at the time of a look [m].
+    fn rounding(&self, look: &Look, start: [f64; 2], from: f64) -> f64 {
+        let (a, b) = (&look.a.instant, &look.b.instant);
+        let turned = (look.time - from)
+            * (a.angular_velocity.norm() * self.a.radius + b.angular_velocity.norm() * self.b.radius);
+        let near = look.between.norm() + self.a.radius + self.b.radius;
+        let far = a.center.norm() + b.center.norm() + start[0] + start[1];
+        f64::EPSILON * (NEAR_UNITS * near + FAR_UNITS * (far + turned))
+    }
+
+    /// Whether a proved step is longer than what comes with speed would take for this way [m].
+    fn is_still(look: &Look, step: f64, left: f64, way: f64) -> bool {
+        step >= left || step * look.speed >= way
+    }
+
+    /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
+    /// above `level` [m].
+    fn advance(&mut self, look: &Look, level: f64, left: f64, trials: u32) -> f64 {
+        // the proposal: where the line through the gap meets the level; no bound reaches beyond it
+        let proposed = if look.closing > 0.0 { (look.closest.signed_distance - level) / look.closing } else { left };
+        let proposed = if proposed < left { proposed.max(0.0) } else { left };
+
+        let mut best = 0.0_f64;
+        for turning in self.turnings(look).into_iter().flatten() {
+            let mut h = proposed;
+            for _ in 0..trials {
+                let proved = self.proved(look, &turning, level, h);
+                best = best.max(proved);
+                if proved >= NEARLY * h {
+                    break;
+                }
+                h = (2.0 * proved).max(h / 16.0);
+            }
+            if best >= NEARLY * proposed {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The angular velocities that the direction may turn with.
+    fn turnings(&self, look: &Look) -> [Option<Vector3>; 2] {
+        let n = &look.closest.normal;
+        let (w_a, w_b) = (look.a.instant.angular_velocity, look.b.instant.angular_velocity);
+        let zero = Vector3::zeros();
+
+        // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
+        let along = |edge: &Vector3, w: &Vector3| w.cross(n).dot(edge);
+        if self.a.is_plane || self.b.is_plane {
+            return [Some(if self.a.is_plane { w_a } else { w_b }), None];
+        }
+        let natural = match (look.closest.feature_a, look.closest.feature_b) {
+            (Feature::Face(_), _) => w_a,
+            (_, Feature::Face(_)) => w_b,
+            (Feature::Edge(i), Feature::Edge(j)) => {
+                let (e, f) = (self.a.edge(&look.a, i), self.b.edge(&look.b, j));
+                let (p, q) = (along(&e, &w_a), along(&f, &w_b));
+                let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
+                n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
+            }
+            (Feature::Edge(i), Feature::Vertex(_)) => {
+                let e = self.a.edge(&look.a, i);
+                n.cross(&(along(&e, &w_a) * e))
+            }
+            (Feature::Vertex(_), Feature::Edge(j)) => {
+                let f = self.b.edge(&look.b, j);
+                n.cross(&(along(&f, &w_b) * f))
+            }
+            _ => zero,
+        };
+        if natural == zero || !natural.norm_squared().is_finite() {
+            return [Some(zero), None];
+        }
+        [Some(natural), Some(zero)]
+    }
+
+    /// How long from a look on, at most `h` [s], the bound with this Ω stays above `level` [m].
+    fn proved(&mut self, look: &Look, turning: &Vector3, level: f64, h: f64) -> f64 {
+        let n = &look.closest.normal;
+        let (t, to) = (look.time, look.time + h);
+        let [bounds_a, bounds_b] = [self.a.motion.bounds(t, to), self.b.motion.bounds(t, to)];
+
+        // the moving points
+        let acceleration = bounds_b.acceleration - bounds_a.acceleration;
+        let (size, deviation) = (acceleration.norm(), bounds_a.deviation + bounds_b.deviation);
+        let rate = turning.cross(n);
+        let (turning_size, rate_size) = (turning.norm(), rate.norm());
+        let fastest = look.approach.norm() + h * (size + deviation);
+        let farthest = look.between.norm() + h * fastest;
+        let mut start = n.dot(&look.between) - self.a.piece.rounding() - self.b.piece.rounding();
+        let mut end = start + h * (rate.dot(&look.between) + n.dot(&look.approach));
+        let mut bend =
+            rate_size * (turning_size * farthest + 2.0 * fastest + h * size) + deviation - n.dot(&acceleration);
+
+        // each body's part
+        let resting = turning_size == 0.0;
+        for (side, placed, bounds, height, sign) in [
+            (&mut self.a, &look.a, &bounds_a, look.heights[0], 1.0),
+            (&mut self.b, &look.b, &bounds_b, look.heights[1], -1.0),
+        ] {
+            let part = side.part(placed, bounds, &(sign * n), height, turning, resting, h);
+            start -= part.start;
+            end -= part.end;
+            bend += part.bend;
+        }
+        crossing(start - look.error - level, (end - start) / h, bend).min(h)
+    }
+}
+
+/// A body's part of the bound: its support is at most the chord from `start` to `end` plus `½ bend τ²`.
+struct Part {
+    start: f64,
+    end: f64,
+    bend: f64,
+}
+
+impl Side<'_> {
+    /// The part along `d` = ±n, which turns with Ω, over `h` [s].
+    #[expect(clippy::too_many_arguments, reason = "the symbols of one formula")]
+    fn part(
+        &mut self,
+        placed: &Placed,
+        bounds: &MotionBounds,
+        d: &Vector3,
+        height: f64,
+        turning: &Vector3,
+        resting: bool,
+        h: f64,
+    ) -> Part {
+        let w = &placed.instant.angular_velocity;
+        let r = self.radius;
+
+        // in axes that turn with Ω: a′ = ρ × a and a″ = ρ × (ρ × a) + ρ′ × a with ρ = ω − Ω
+        if self.is_plane && bounds.angular_acceleration > 0.0 {
+            return Part { start: height, end: f64::INFINITY, bend: 0.0 }; // a plane without end: nothing is proved
+        }
+        let relative = w - turning;
+        let across = relative.cross(d).norm();
+        let change = bounds.angular_acceleration * (1.0 + turning.norm() * h) + turning.cross(w).norm();
+        let drift = change * h;
+        let bend = r * ((across + drift) * (relative.norm() + drift) + change);
+
+        // without Ω: the plain bound, or all that is swept
+        let mut plain = f64::INFINITY;
+        if resting && !self.is_plane {
+            let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
+            plain = height + h * fastest * r;
+            let all = self.swept(placed, bounds, d, h);
+            if all <= plain && all <= height + 0.5 * bend * h * h {
+                return Part { start: all, end: all, bend: 0.0 };
+            }
+        }
+        let end = if across == 0.0 { height } else { self.height(placed, &(d + h * d.cross(&relative))) };
+        if plain < end + 0.5 * bend * h * h {
+            return Part { start: height, end: plain, bend: 0.0 };
+        }
+        Part { start: height, end, bend }
+    }
+}
+
+impl Side<'_> {
+    /// Support along `d` of all that the body sweeps in the time `h` [s], however it turns.
+    fn swept(&mut self, placed: &Placed, bounds: &MotionBounds, d: &Vector3, h: f64) -> f64 {
+        let w = &placed.instant.angular_velocity;
+        if bounds.angular_acceleration > 0.0 || h * bounds.angular_speed < SWEEPS {
+            return self.radius;
+        }
+        let swept = match self.swept.take().filter(|swept| swept.spin == *w) {
+            Some(swept) => swept,
+            None => match self.piece.corners() {
+                Some(corners) => Swept::new(self, &corners, placed),
+                None => return self.radius,
+            },
+        };
+        let height = swept.height(d);
+        self.swept = Some(swept);
+        height
+    }
+}
+
+/// The first root of `c + b τ − ½ k τ²`, for a positive start c; without one, infinity.
+fn crossing(c: f64, b: f64, k: f64) -> f64 {
+    if c <= 0.0 || c.is_nan() {
+        return 0.0;
+    }
+    let discriminant = b * b + 2.0 * k * c;
+    if discriminant < 0.0 || (b > 0.0 && k <= 0.0) {
+        return f64::INFINITY;
+    }
+    // of the two forms of the root the one that does not cancel
+    let root = discriminant.sqrt();
+    if b > 0.0 {
+        return (b + root) / k;
+    }
+    if root > b { 2.0 * c / (root - b) } else { f64::INFINITY }
+}
+
+/// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
+const ROUNDS: u32 = 100_000;
+/// How often a bound is tried with another look ahead [-].
+const TRIALS: u32 = 4;
+/// The same within ε [-]: what touches may leave in one point while another comes from nearby, and the
+/// look ahead must become short enough to tell them apart.
+const TRIALS_WITHIN: u32 = 16;
+/// A bound that proves so much of what it looked ahead is good enough [-].
+const NEARLY: f64 = 0.5;
+/// Rounding of a separation from supports, in ε of the pair's size [-]: 29/2 of the radii and 10/2 of the
+/// distance as in the closest features, once for each end of the chord.
+const SUPPORT_UNITS: f64 = 32.0;
+/// ε of the search is at least so many rounding units of the pair's size [-]: half of it must stay above
+/// the error of a separation and the interval of an answer.
+const NEAR_UNITS: f64 = 144.0;
+/// The same of coordinates and of the way that turning takes [-]: a sum of positions, a product of rate
+/// and time.
+const FAR_UNITS: f64 = 8.0;
+/// Angle from which on a spin is taken for all that it sweeps [rad].
+const SWEEPS: f64 = 1.0;
+/// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
+const LEAST_STAY: f64 = 10.0;
+/// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].
+const SLOW: f64 = 1.0e4;
+/// How far a pair that touches to rounding may sink while it leaves, in errors of a separation [-].
+const LEAST_SINK: f64 = 4.0;
+/// Rounds within ε after which a pair is said to stay there [-].
+const STAYS: u32 = 256;

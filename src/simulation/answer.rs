@@ -1,0 +1,550 @@
+//! What happens at an instant of contact: impact, merging with what is fixed, and who stays together after it.
+//!
+//! ```text
+//! u > v_rest      a bounce with the pairs' restitutions, also of pairs that the blow reaches only
+//! u ≤ v_rest      no bounce: its height, and all that would follow it, is below REST_RISE of the size
+//! v_rest = √(2 a REST_RISE size)        a: the loads' acceleration
+//! ```
+//!
+//! u is the fastest approach of the cluster. Bounces that accumulate end so; when they would have ended is told
+//! by their series (`contact::accumulation`), and is the time of the event.
+
+use super::cluster::{Cluster, in_words};
+use super::lasting::{Led, Part, shift_by};
+use super::near::{Due, What};
+use super::{Failure, Simulation, SimulationError};
+use crate::closest::ClosestFeatures;
+use crate::contact::accumulation::{Accumulation, rest_speed};
+use crate::contact::cluster::{ClusterError, Contact};
+use crate::contact::collision::{Collision, collide};
+use crate::contact::rest::align;
+use crate::contact::{Answer, Response, stick};
+use crate::math::Vector3;
+use crate::math::sum::Time;
+use crate::state::{BodyMotion, Load};
+use crate::trajectory::{Event, EventKind, Heat, Trajectory};
+
+/// Impacts of one body at one instant after which it is said to be caught [-]. Two planes that answer each
+/// other with e < 1 are done to rounding after about 50.
+const ROUNDS_AT_ONCE: u32 = 64;
+/// Height of a bounce below which there is none, as a fraction of the pair's size [-]. Larger: bodies come to
+/// rest earlier, by the time of the bounces that are left out. Smaller: more bounces, each half as high.
+const REST_RISE: f64 = 1.0e-10;
+/// Speed that counts as none, in the speed below which no body bounces, and in the fastest of the cluster [-];
+/// solvers leave 1e-11 of the latter.
+const SMALL: [f64; 2] = [1.0e-3, 1.0e-11];
+/// Slip that counts as none, in the speed that the loads give over the pair's size [-]: the end of a slide is
+/// located to some 1e-10 of it.
+const SLIP: f64 = 1.0e-7;
+/// Gap below which bodies that touch are lifted, in ε [-], to half of it.
+const LIFT: f64 = 0.1;
+/// Error of the time at which bounces end that is good enough, as a fraction of that time [-].
+const END_ERROR: f64 = 1.0e-9;
+
+/// The scales of a cluster: which speeds count as what.
+pub(super) struct Pace {
+    /// Largest acceleration that the loads give a body [m/s²].
+    pub(super) pull: f64,
+    /// Size of the smallest pair [m].
+    pub(super) size: f64,
+    /// Approach below which nothing bounces [m/s].
+    pub(super) rest: f64,
+    /// Speed that counts as none [m/s].
+    pub(super) small: f64,
+    /// Slip that counts as none [m/s].
+    pub(super) slip: f64,
+}
+
+/// What a body does from now on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Mode {
+    Fly,
+    Rest,
+    Lead,
+}
+
+impl Simulation {
+    /// Answers a touch of these bodies at `time`, together with all that touch them then.
+    pub(super) fn answer(
+        &mut self,
+        seeds: &[usize],
+        time: Time,
+        iterations: u32,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
+        let mut cluster = self.whole_cluster(seeds, time)?;
+        self.lift(&mut cluster);
+        let before = cluster.motions.clone();
+
+        // bodies that stick to a fixed one stop; the others are answered all at once
+        let stuck = self.stick(&mut cluster);
+        for (body, answer, closest, obstacle) in &stuck {
+            self.book_stick(&cluster, &before, *body, *answer, closest, *obstacle, (time, iterations));
+        }
+        let pace = self.pace(&cluster, time);
+        let bounced = self.collide(&mut cluster, &pace, time, iterations)?;
+        if bounced {
+            for &body in cluster.bodies.iter().filter(|&&i| self.places[i].is_some()) {
+                if self.near.count_hit(body, time.value) > ROUNDS_AT_ONCE {
+                    let why = format!("{ROUNDS_AT_ONCE} impacts at one instant");
+                    return Err(self.failure_of(seeds, time.value, Failure::AccumulatingImpacts(why)));
+                }
+            }
+        }
+        self.iterations += u64::from(iterations);
+
+        // who stays together, and who flies
+        let parts = self.settle(&mut cluster, &pace, time)?;
+        let mut modes = vec![Mode::Fly; cluster.bodies.len()];
+        for part in &parts {
+            for &place in &part.places {
+                modes[place] = if part.rests { Mode::Rest } else { Mode::Lead };
+            }
+        }
+        for part in parts.iter().filter(|part| part.rests) {
+            self.lay_down(&mut cluster, part, time);
+        }
+        for part in parts.iter().filter(|part| !part.rests) {
+            let begins = part.places.iter().any(|&p| !self.is_led(cluster.bodies[p]));
+            if begins {
+                self.book_part(&cluster, &before, part, time, EventKind::Contact);
+            }
+        }
+        self.released.clear();
+        for touching in &cluster.touching {
+            let lasts = |i: usize| parts.iter().any(|part| part.contacts.contains(&i));
+            if !touching.contacts.clone().any(lasts) {
+                let opening = touching.contacts.clone().map(|i| -cluster.approach(&cluster.contacts[i]));
+                self.released.push((touching.bodies, opening.fold(f64::INFINITY, f64::min)));
+            }
+        }
+        self.go_on(&cluster, &before, &modes, &parts, &pace, time, record)
+    }
+
+    /// All that touches, with the whole of every part that is led.
+    fn whole_cluster(&mut self, seeds: &[usize], time: Time) -> Result<Cluster, SimulationError> {
+        let mut seeds = seeds.to_vec();
+        loop {
+            let cluster = self.cluster(&seeds, time)?;
+            let led = cluster.bodies.iter().filter_map(|&body| self.slot(body));
+            let all = led.filter_map(|slot| self.together[slot].as_ref()).flat_map(|t| &t.bodies);
+            let missing: Vec<usize> = all.copied().filter(|&body| cluster.place(body).is_none()).collect();
+            if missing.is_empty() {
+                return Ok(cluster);
+            }
+            seeds.extend(missing);
+            seeds.sort_unstable();
+            seeds.dedup();
+        }
+    }
+
+    /// Lifts bodies off each other whose gap rounding has used up.
+    fn lift(&self, cluster: &mut Cluster) {
+        let eps = |contact: &Contact| self.eps(cluster.bodies[contact.a], cluster.bodies[contact.b]);
+        if cluster.contacts.iter().zip(&cluster.gaps).all(|(contact, gap)| *gap >= LIFT * eps(contact)) {
+            return;
+        }
+        let normal = |c: &Contact| c.normals.iter().sum::<Vector3>().try_normalize(0.0);
+        let rows: Vec<(usize, Vector3)> =
+            cluster.contacts.iter().enumerate().filter_map(|(i, c)| Some((i, normal(c)?))).collect();
+        // all points of a pair alike, which a shift can do however many they are
+        let mut missing = vec![0.0_f64; cluster.contacts.len()];
+        for touching in &cluster.touching {
+            let range = touching.contacts.clone();
+            let wanted = |i: usize| 0.5 * eps(&cluster.contacts[i]) - cluster.gaps[i];
+            let most = range.clone().map(wanted).fold(0.0, f64::max);
+            missing[range].fill(most);
+        }
+        let lifts: Vec<f64> = rows.iter().map(|(i, _)| missing[*i]).collect();
+        let bodies = self.cluster_bodies(cluster, &cluster.motions);
+        let shifts = align(&bodies, &cluster.contacts, &rows, &lifts);
+        for (motion, shift) in cluster.motions.iter_mut().zip(shifts) {
+            shift_by(motion, &shift.linear, &shift.angular);
+        }
+        for ((i, _), lift) in rows.iter().zip(&lifts) {
+            cluster.gaps[*i] += lift;
+        }
+    }
+
+    /// Stops the bodies that stick to a fixed one.
+    fn stick(&mut self, cluster: &mut Cluster) -> Vec<(usize, Answer, ClosestFeatures, usize)> {
+        let mut stuck: Vec<(usize, Answer, ClosestFeatures, usize)> = Vec::new();
+        for touching in &cluster.touching {
+            let [a, b] = touching.bodies;
+            let sticks = self.plan.material(a, b).response == Response::Stick && self.plan.bodies()[a].fixed;
+            let Some(place) = cluster.bodies.iter().position(|&i| i == b).filter(|_| sticks) else { continue };
+            if !self.is_stuck(b) {
+                stuck.push((b, stick::stick(&mut cluster.motions[place]), touching.closest, a));
+                self.stuck.push(b);
+            }
+        }
+        stuck
+    }
+
+    /// The scales of a cluster.
+    fn pace(&self, cluster: &Cluster, time: Time) -> Pace {
+        let pull = |(&body, motion): (&usize, &BodyMotion)| match self.places[body] {
+            Some((lane, _)) => {
+                let still = BodyMotion { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros(), ..*motion };
+                let Load { force, torque } = self.load_on(lane, &still, self.moment(lane, time.value));
+                let inverse = self.plan.bodies()[body].properties.inv_inertia();
+                let turning = (inverse * motion.rotation.tr_mul(&torque)).norm() * self.plan.bodies()[body].radius;
+                (force / motion.mass).norm() + turning
+            }
+            None => 0.0,
+        };
+        let pull = cluster.bodies.iter().zip(&cluster.motions).map(pull).fold(0.0, f64::max);
+        let size = cluster.touching.iter().map(|t| self.size(t.bodies[0], t.bodies[1])).fold(f64::INFINITY, f64::min);
+        let size = if size.is_finite() { size } else { 0.0 };
+        let speed = |(&body, motion): (&usize, &BodyMotion)| {
+            motion.velocity.norm() + motion.angular_velocity.norm() * self.plan.bodies()[body].radius
+        };
+        let fastest = cluster.bodies.iter().zip(&cluster.motions).map(speed).fold(0.0, f64::max);
+        let rest = rest_speed(pull, REST_RISE * size);
+        let small = (SMALL[0] * rest).max(SMALL[1] * fastest);
+        Pace { pull, size, rest, small, slip: (SLIP * (pull * size).sqrt()).max(SMALL[1] * fastest) }
+    }
+
+    /// The impact of a cluster, if anything approaches; whether anything did.
+    fn collide(
+        &mut self,
+        cluster: &mut Cluster,
+        pace: &Pace,
+        time: Time,
+        iterations: u32,
+    ) -> Result<bool, SimulationError> {
+        let approaches: Vec<f64> = cluster.contacts.iter().map(|c| cluster.approach(c)).collect();
+        if approaches.iter().all(|&u| u <= pace.small) {
+            return Ok(false);
+        }
+        let mut contacts = cluster.contacts.clone();
+        if approaches.iter().all(|&u| u <= pace.rest) {
+            for contact in &mut contacts {
+                contact.restitution = 0.0;
+            }
+        }
+        let bodies = self.cluster_bodies(cluster, &cluster.motions);
+        let collision =
+            collide(&bodies, &contacts, self.plan.options().restitution_law).map_err(|why: ClusterError| {
+                let why = Failure::Refused(format!("the impact cannot be answered: {why}"));
+                self.failure_of(&cluster.bodies, time.value, why)
+            })?;
+        let before = cluster.motions.clone();
+        for (motion, velocity) in cluster.motions.iter_mut().zip(&collision.velocities) {
+            (motion.velocity, motion.angular_velocity) = (velocity.linear, velocity.angular);
+        }
+
+        // one event for every pair that bounced; what others lose is heat
+        let mut booked = 0.0;
+        let mut iterations = iterations;
+        for k in 0..cluster.touching.len() {
+            let range = cluster.touching[k].contacts.clone();
+            let bounces = approaches[range.clone()].iter().any(|&u| u > pace.rest)
+                || collision.impulses[range.clone()].iter().any(|j| {
+                    let [a, b] = cluster.touching[k].bodies;
+                    let mass = [a, b].map(|i| {
+                        if self.places[i].is_some() { self.plan.bodies()[i].properties.mass } else { f64::INFINITY }
+                    });
+                    j.norm() > pace.rest * mass[0].min(mass[1])
+                });
+            if bounces {
+                booked += self.book_bounce(cluster, &before, &collision, k, time, iterations);
+                iterations = 0; // the rounds belong to the pair that was searched, not to those that came along
+            }
+        }
+        let heat = collision.energy_lost - booked;
+        if heat != 0.0 {
+            self.heat.push(Heat::at(time.value, heat));
+        }
+        Ok(true)
+    }
+
+    /// Books the bounce of a pair; the energy lost in it [J].
+    fn book_bounce(
+        &mut self,
+        cluster: &Cluster,
+        before: &[BodyMotion],
+        collision: &Collision,
+        pair: usize,
+        time: Time,
+        iterations: u32,
+    ) -> f64 {
+        let touching = &cluster.touching[pair];
+        let range = touching.contacts.clone();
+        let impulses = &collision.impulses[range.clone()];
+        let impulse: Vector3 = impulses.iter().sum();
+        if impulse == Vector3::zeros() {
+            return 0.0;
+        }
+        let weight: f64 = impulses.iter().map(Vector3::norm).sum();
+        let contacts = &cluster.contacts[range];
+        let point = contacts.iter().zip(impulses).map(|(c, j)| j.norm() / weight * c.point).sum();
+        let [Some(a), Some(b)] = touching.bodies.map(|i| cluster.place(i)) else { return 0.0 };
+        let after = &cluster.motions;
+
+        // what the contact took: −½ j·(u⁻ + u⁺), summed over its points
+        let speed = |motions: &[BodyMotion], p: &Vector3| motions[b].velocity_at(p) - motions[a].velocity_at(p);
+        let lost = |(c, j): (&Contact, &Vector3)| -0.5 * j.dot(&(speed(before, &c.point) + speed(after, &c.point)));
+        let energy_lost = contacts.iter().zip(impulses).map(lost).sum();
+        self.watch(touching.bodies, time.value);
+        self.events.push(Event {
+            time: time.value,
+            kind: EventKind::Bounce,
+            name: String::new(),
+            passage: None,
+            bodies: touching.bodies,
+            point,
+            normal: touching.closest.normal,
+            impulse,
+            features: in_words(&touching.closest),
+            iterations,
+            velocity: [before[b].velocity, after[b].velocity],
+            angular_velocity: [before[b].angular_velocity, after[b].angular_velocity],
+            other_velocity: [before[a].velocity, after[a].velocity],
+            other_angular_velocity: [before[a].angular_velocity, after[a].angular_velocity],
+            energy_lost,
+        });
+        energy_lost
+    }
+
+    /// Keeps the time of a pair's bounce; a pair that has hit others in between is told by its own times only.
+    fn watch(&mut self, pair: [usize; 2], time: f64) {
+        let at = self.bounces.iter().position(|(other, ..)| *other == pair).unwrap_or_else(|| {
+            self.bounces.push((pair, Accumulation::new(), None));
+            self.bounces.len() - 1
+        });
+        let (_, times, end) = &mut self.bounces[at];
+        *end = times.book(time, END_ERROR * time.abs()).map(|capture| capture.time);
+    }
+
+    /// When the bounces of a pair that rests from now on would have ended [s].
+    fn end_of_bounces(&mut self, pair: [usize; 2], now: f64) -> f64 {
+        let Some(at) = self.bounces.iter().position(|(other, ..)| *other == pair) else { return now };
+        let (_, _, end) = self.bounces.swap_remove(at);
+        end.map_or(now, |end| end.max(now))
+    }
+
+    /// Books that a body has stuck to a fixed one.
+    #[expect(clippy::too_many_arguments, reason = "what is written down of an event")]
+    fn book_stick(
+        &mut self,
+        cluster: &Cluster,
+        before: &[BodyMotion],
+        body: usize,
+        answer: Answer,
+        closest: &ClosestFeatures,
+        obstacle: usize,
+        (time, iterations): (Time, u32),
+    ) {
+        let Some(place) = cluster.place(body) else { return };
+        self.events.push(Event {
+            time: time.value,
+            kind: EventKind::Stick,
+            name: String::new(),
+            passage: None,
+            bodies: [obstacle, body],
+            point: closest.point_b,
+            normal: closest.normal,
+            impulse: answer.impulse,
+            features: in_words(closest),
+            iterations,
+            velocity: [before[place].velocity, Vector3::zeros()],
+            angular_velocity: [before[place].angular_velocity, Vector3::zeros()],
+            other_velocity: [Vector3::zeros(); 2],
+            other_angular_velocity: [Vector3::zeros(); 2],
+            energy_lost: answer.energy_lost,
+        });
+    }
+
+    /// Books that a part stays together from now on, one event a pair.
+    fn book_part(&mut self, cluster: &Cluster, before: &[BodyMotion], part: &Part, time: Time, kind: EventKind) {
+        for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
+            let [Some(a), Some(b)] = touching.bodies.map(|i| cluster.place(i)) else { continue };
+            let after = &cluster.motions;
+            let time = self.end_of_bounces(touching.bodies, time.value);
+            self.events.push(Event {
+                time,
+                kind,
+                name: String::new(),
+                passage: None,
+                bodies: touching.bodies,
+                point: touching.closest.point_b,
+                normal: touching.closest.normal,
+                impulse: Vector3::zeros(),
+                features: in_words(&touching.closest),
+                iterations: 0,
+                velocity: [before[b].velocity, after[b].velocity],
+                angular_velocity: [before[b].angular_velocity, after[b].angular_velocity],
+                other_velocity: [before[a].velocity, after[a].velocity],
+                other_angular_velocity: [before[a].angular_velocity, after[a].angular_velocity],
+                energy_lost: 0.0,
+            });
+        }
+    }
+
+    /// Brings the bodies of a part to rest where they are.
+    fn lay_down(&mut self, cluster: &mut Cluster, part: &Part, time: Time) {
+        let before = cluster.motions.clone();
+        let mut left = 0.0;
+        for &place in &part.places {
+            let motion = &mut cluster.motions[place];
+            left += motion.kinetic_energy();
+            (motion.velocity, motion.angular_velocity) = (Vector3::zeros(), Vector3::zeros());
+        }
+        if left != 0.0 {
+            self.heat.push(Heat::at(time.value, left));
+        }
+        if part.places.iter().any(|&place| !self.is_held(cluster.bodies[place])) {
+            self.book_part(cluster, &before, part, time, EventKind::Rest);
+        }
+    }
+
+    /// Begins the flights, the rest and the steps that follow, and searches on from there.
+    #[expect(clippy::too_many_arguments, reason = "all that an instant has come to")]
+    fn go_on(
+        &mut self,
+        cluster: &Cluster,
+        before: &[BodyMotion],
+        modes: &[Mode],
+        parts: &[Part],
+        pace: &Pace,
+        time: Time,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
+        let plan = self.plan.clone();
+
+        // parts that were led are led anew
+        let slots: Vec<usize> = cluster.bodies.iter().filter_map(|&body| self.slot(body)).collect();
+        for slot in slots {
+            let part = self.together[slot].take();
+            let heat = part.and_then(|part| part.heat).and_then(|at| self.heat.get_mut(at));
+            if let Some(heat) = heat.filter(|heat| heat.to > time.value && heat.from < time.value) {
+                heat.cut(time.value);
+            }
+        }
+        let mut lanes: Vec<usize> = Vec::new();
+        for (place, &body) in cluster.bodies.iter().enumerate() {
+            let Some((lane, _)) = self.places[body] else { continue };
+            let stuck = self.is_stuck(body);
+            let (was_held, was_led) = (self.is_held(body), self.lanes[lane].is_led());
+            let holds = stuck || modes[place] == Mode::Rest;
+            let is_changed = before[place] != cluster.motions[place]
+                || was_held != holds
+                || was_led
+                || modes[place] == Mode::Lead
+                || self.released.iter().any(|(pair, _)| pair.contains(&body)) && !holds;
+            self.lanes[lane].held.retain(|held| *held != body);
+            if holds {
+                self.lanes[lane].held.push(body);
+            }
+            if is_changed && !lanes.contains(&lane) {
+                lanes.push(lane);
+            }
+        }
+        lanes.sort_unstable();
+        for &lane in &lanes {
+            let leads = plan.groups()[self.lanes[lane].group].members.iter().any(|&body| {
+                cluster.place(body).is_some_and(|place| modes[place] == Mode::Lead && !self.is_stuck(body))
+            });
+            self.begin_flight(lane, time, cluster, leads, record)?;
+        }
+        for part in parts.iter().filter(|part| !part.rests) {
+            self.lead(cluster, part, pace, time)?;
+        }
+        for &lane in &lanes {
+            if !self.lanes[lane].is_led() {
+                self.step_over(lane, time.value, record)?;
+            }
+        }
+        for &lane in &lanes {
+            for &body in &plan.groups()[self.lanes[lane].group].members {
+                if plan.bodies()[body].collider.is_some() && self.places[body].is_some() {
+                    self.open_window(body, time.value, record)?;
+                }
+            }
+            self.wake_at_switch(lane, time);
+        }
+        self.released.clear();
+        Ok(())
+    }
+
+    /// Wakes the body that rests in a lane where its load jumps.
+    fn wake_at_switch(&mut self, lane: usize, time: Time) {
+        let spec = &self.plan.groups()[self.lanes[lane].group];
+        let Some(&body) = self.lanes[lane].held.first() else { return };
+        if let Some(&switch) = spec.switches.iter().find(|&&s| s > time.value)
+            && !self.is_stuck(body)
+            && switch < self.end
+        {
+            let number = self.lanes[lane].number;
+            self.near.due.push(Due { time: Time::new(switch), what: What::Wake { body, number } });
+        }
+    }
+
+    /// Cuts a lane's flight at `time` and begins another from the cluster's motions.
+    fn begin_flight(
+        &mut self,
+        index: usize,
+        time: Time,
+        cluster: &Cluster,
+        leads: bool,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
+        let plan = self.plan.clone();
+        let members = &plan.groups()[self.lanes[index].group].members;
+        let mut motions = self.lanes[index].motions.clone();
+        for (motion, &member) in motions.iter_mut().zip(members) {
+            *motion =
+                cluster.place(member).map_or_else(|| self.motion_at(member, time), |place| cluster.motions[place]);
+        }
+        let lane = &mut self.lanes[index];
+        if lane.pending.is_some() {
+            let offset = (time.value - lane.flight.segment().start) + time.rest;
+            if offset < lane.flight.segment().length {
+                lane.flight.cut(offset);
+            }
+        }
+        self.finish_step(index, record)?;
+
+        let since = self.moment(index, time.value).since;
+        let lane = &mut self.lanes[index];
+        lane.earlier.add(lane.flight.counts());
+        lane.led = None;
+        let charts = plan.charts(lane.group, &lane.held);
+        let begun = charts.and_then(|charts| {
+            let flight = if leads {
+                Box::new(Led::new(charts.clone(), time, &motions))
+            } else {
+                plan.flight_for(lane.group, time.value, &self.controls[lane.group], &motions, &lane.held)?
+            };
+            if let (Some(run), true) = (record.as_mut(), charts != lane.charts) {
+                lane.phase = run.phases.len();
+                run.phases.push(plan.phase(lane.group, time.value, &motions, &lane.held)?);
+            }
+            Ok((flight, charts))
+        });
+        match begun {
+            Ok((flight, charts)) => {
+                lane.flight = flight;
+                lane.flight.set_clock(time, since);
+                (lane.charts, lane.motions, lane.number) = (charts, motions, lane.number + 1);
+                Ok(())
+            }
+            Err(error) => Err(self.failure(index, time.value, Failure::Refused(error.to_string()))),
+        }
+    }
+
+    /// The part that a body is led with.
+    pub(super) fn slot(&self, body: usize) -> Option<usize> {
+        self.places[body].and_then(|(lane, _)| self.lanes[lane].led)
+    }
+
+    fn is_led(&self, body: usize) -> bool {
+        self.slot(body).is_some()
+    }
+
+    /// Whether a body has stuck to a fixed one, for good.
+    pub(super) fn is_stuck(&self, body: usize) -> bool {
+        self.stuck.contains(&body)
+    }
+}

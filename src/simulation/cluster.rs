@@ -1,0 +1,227 @@
+//! The bodies that touch at an instant, one with another, and all points in which they do.
+
+use super::{Failure, Simulation, SimulationError};
+use crate::closest::{Accuracy, ClosestFeatures, Collidable, Collider, PairCache, closest_features};
+use crate::contact::Material;
+use crate::contact::anchor::{Anchor, Faced};
+use crate::contact::broad_phase::Aabb;
+use crate::contact::cluster::{ClusterBody, Contact};
+use crate::contact::manifold::{Surface, Touch, manifold};
+use crate::math::sum::Time;
+use crate::math::{Pose, quaternion};
+use crate::shape::Shape;
+use crate::state::BodyMotion;
+use crate::tolerance::TOUCH_GAP;
+
+/// Two bodies that touch, and where.
+pub(super) struct Touching {
+    pub(super) bodies: [usize; 2],
+    pub(super) closest: ClosestFeatures,
+    /// Places of its contacts in the cluster's list.
+    pub(super) contacts: std::ops::Range<usize>,
+}
+
+/// The bodies that touch at an instant, one with another.
+#[derive(Default)]
+pub(super) struct Cluster {
+    /// As places in the scene.
+    pub(super) bodies: Vec<usize>,
+    pub(super) motions: Vec<BodyMotion>,
+    pub(super) touching: Vec<Touching>,
+    pub(super) contacts: Vec<Contact>,
+    /// Gap of each contact [m], and where it goes when its bodies move.
+    pub(super) gaps: Vec<f64>,
+    pub(super) anchors: Vec<Option<Anchor>>,
+}
+
+impl Cluster {
+    /// Adds a body, if it is not in; its place.
+    pub(super) fn add(&mut self, body: usize, motion: BodyMotion) -> usize {
+        self.place(body).unwrap_or_else(|| {
+            self.bodies.push(body);
+            self.motions.push(motion);
+            self.bodies.len() - 1
+        })
+    }
+
+    /// The place of a body.
+    pub(super) fn place(&self, body: usize) -> Option<usize> {
+        self.bodies.iter().position(|&i| i == body)
+    }
+
+    /// How fast the bodies of a contact approach at its point [m/s]; the fastest of its normals.
+    pub(super) fn approach(&self, contact: &Contact) -> f64 {
+        let [a, b] = [contact.a, contact.b].map(|k| self.motions[k].velocity_at(&contact.point));
+        contact.normals.iter().map(|n| n.dot(&(a - b))).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+impl Simulation {
+    /// All that touches at `time`, starting from these bodies.
+    pub(super) fn cluster(&self, seeds: &[usize], time: Time) -> Result<Cluster, SimulationError> {
+        let plan = &self.plan;
+        let mut cluster = Cluster::default();
+        for &body in seeds {
+            cluster.add(body, self.motion_at(body, time));
+        }
+        let (mut next, mut others) = (0, Vec::new());
+        while next < cluster.bodies.len() {
+            let (body, motion) = (cluster.bodies[next], cluster.motions[next]);
+            next += 1;
+            if plan.bodies()[body].fixed {
+                continue;
+            }
+            let radius = plan.bodies()[body].radius;
+            self.near.around(&Aabb::of_ball(&motion.position, radius + self.reach_of(radius)), &mut others);
+            for &other in others.iter().filter(|&&other| other != body && plan.may_meet(body, other)) {
+                let pair = if plan.bodies()[other].fixed || other < body { [other, body] } else { [body, other] };
+                if cluster.touching.iter().any(|touching| touching.bodies == pair) {
+                    continue;
+                }
+                let closest = self.closest(pair[0], pair[1], time)?;
+                let reach = self.eps(pair[0], pair[1]) + TOUCH_GAP * self.size(pair[0], pair[1]);
+                if closest.signed_distance > reach {
+                    continue;
+                }
+                let places = [pair[0], pair[1]].map(|i| cluster.add(i, self.motion_at(i, time)));
+                let first = cluster.contacts.len();
+                self.add_contacts(&mut cluster, pair, time, places, reach)?;
+                let contacts = first..cluster.contacts.len();
+                cluster.touching.push(Touching { bodies: pair, closest, contacts });
+            }
+        }
+        Ok(cluster)
+    }
+
+    /// The points in which two bodies touch: of every two pieces within `reach` [m] all that carry.
+    fn add_contacts(
+        &self,
+        cluster: &mut Cluster,
+        pair: [usize; 2],
+        time: Time,
+        places: [usize; 2],
+        reach: f64,
+    ) -> Result<(), SimulationError> {
+        let [Some(a), Some(b)] = pair.map(|i| self.plan.bodies()[i].collider.as_deref()) else { return Ok(()) };
+        let [shape_a, shape_b] = pair.map(|i| self.plan.scene().bodies[i].shape.as_ref());
+        let [pose_a, pose_b] = pair.map(|i| self.pose_at(i, time));
+        let Material { friction, restitution, .. } = self.plan.material(pair[0], pair[1]);
+        let (whole_a, whole_b) = (Collidable::from(a), Collidable::from(b));
+        for i in 0..whole_a.pieces() {
+            for j in 0..whole_b.pieces() {
+                let (piece_a, piece_b) = (whole_a.piece(i), whole_b.piece(j));
+                let closest = piece_a
+                    .closest(&pose_a, &piece_b, &pose_b, &mut PairCache::new(), Accuracy::Exact)
+                    .map_err(|error| self.failure_of(&pair, time.value, Failure::Refused(error.to_string())))?;
+                if closest.signed_distance > reach {
+                    continue;
+                }
+                let surfaces = (surface(shape_a, a, i), surface(shape_b, b, j));
+                let (Some((surface_a, at_a)), Some((surface_b, at_b))) = surfaces else { continue };
+                let (at_a, at_b) = (placed(&pose_a, &at_a), placed(&pose_b, &at_b));
+                let found = manifold(&surface_a, &at_a, &surface_b, &at_b, &Touch::from(&closest), reach);
+                cluster.contacts.extend(found.contacts(places[0], places[1], friction, restitution));
+                let faced_a = Faced { surface: surface_a, pose: at_a, motion: &cluster.motions[places[0]] };
+                let faced_b = Faced { surface: surface_b, pose: at_b, motion: &cluster.motions[places[1]] };
+                let anchors = found.points.iter().map(|p| Anchor::new(&faced_a, &faced_b, &found, p));
+                cluster.anchors.extend(anchors);
+                cluster.gaps.extend(found.points.iter().map(|p| p.gap));
+            }
+        }
+        Ok(())
+    }
+
+    /// A body of a cluster as contacts meet it.
+    pub(super) fn cluster_body(&self, body: usize, motion: &BodyMotion) -> ClusterBody {
+        if self.places[body].is_none() {
+            return ClusterBody::driven(motion);
+        }
+        ClusterBody::free(motion, &self.plan.bodies()[body].properties.inv_inertia())
+    }
+
+    /// Where the axes of a body's shape stand at an instant.
+    fn pose_at(&self, body: usize, time: Time) -> Pose {
+        self.pose_of(body, &self.motion_at(body, time))
+    }
+
+    /// The same where the body moves so.
+    pub(super) fn pose_of(&self, body: usize, motion: &BodyMotion) -> Pose {
+        let center = self.plan.bodies()[body].properties.center_of_mass;
+        Pose { position: motion.point(&-center), orientation: motion.orientation }
+    }
+
+    /// The closest features of two bodies at an instant.
+    pub(super) fn closest(&self, a: usize, b: usize, time: Time) -> Result<ClosestFeatures, SimulationError> {
+        self.closest_at([a, b], [a, b].map(|i| self.pose_at(i, time)), time.value)
+    }
+
+    /// The same at these poses.
+    pub(super) fn closest_at(
+        &self,
+        [a, b]: [usize; 2],
+        [pose_a, pose_b]: [Pose; 2],
+        time: f64,
+    ) -> Result<ClosestFeatures, SimulationError> {
+        let [Some(shape_a), Some(shape_b)] = [a, b].map(|i| self.plan.bodies()[i].collider.as_deref()) else {
+            return Err(self.failure_of(&[a, b], time, Failure::Refused("no shape".to_owned())));
+        };
+        let mut cache = PairCache::new();
+        closest_features(shape_a, &pose_a, shape_b, &pose_b, Some(&mut cache), Accuracy::Exact)
+            .map_err(|error| self.failure_of(&[a, b], time, Failure::Refused(error.to_string())))
+    }
+
+    /// Size of a pair [m], by which its tolerances are measured: both radii; a fixed body counts as the other.
+    pub(super) fn size(&self, a: usize, b: usize) -> f64 {
+        self.plan.bodies()[a].radius + self.plan.bodies()[b].radius
+    }
+
+    /// How much farther than its box a body's neighbours are looked for [m].
+    pub(super) fn reach_of(&self, radius: f64) -> f64 {
+        self.eps_given().unwrap_or(0.0) + 2.0 * TOUCH_GAP * radius
+    }
+}
+
+/// Which features touch, in words: of a, then of b.
+pub(super) fn in_words(closest: &ClosestFeatures) -> String {
+    let name = |feature: crate::closest::Feature| format!("{} {}", feature.kind(), feature.index());
+    format!("{}, {}", name(closest.feature_a), name(closest.feature_b))
+}
+
+/// The surface of a body's piece, and where it stands in the body's shape.
+fn surface<'a>(shape: Option<&'a Shape>, collider: &'a Collider, piece: usize) -> Option<(Surface<'a>, Pose)> {
+    let (shape, pose) = piece_of(shape?, piece, Pose::identity()).ok()?;
+    let surface = match shape {
+        Shape::HalfSpace(shape) => Surface::HalfSpace(shape),
+        Shape::Sphere(shape) => Surface::Sphere(shape),
+        Shape::Cylinder(shape) => Surface::Cylinder(shape),
+        Shape::Capsule(shape) => Surface::Capsule(shape),
+        Shape::Cone(shape) => Surface::Cone(shape),
+        Shape::Ellipsoid(shape) => Surface::Ellipsoid(shape),
+        _ => Surface::Polyhedron(collider.polyhedron(piece)?),
+    };
+    Some((surface, pose))
+}
+
+/// The convex piece of this number, nested ones in order; else how many there are.
+fn piece_of(shape: &Shape, number: usize, pose: Pose) -> Result<(&Shape, Pose), usize> {
+    let Shape::Compound(compound) = shape else {
+        return if number == 0 { Ok((shape, pose)) } else { Err(1) };
+    };
+    let mut before = 0;
+    for piece in &compound.pieces {
+        let inner = Pose::new(piece.position, piece.orientation);
+        match piece_of(&piece.shape, number - before, placed(&pose, &inner)) {
+            Ok(found) => return Ok(found),
+            Err(count) => before += count,
+        }
+    }
+    Err(before)
+}
+
+/// A frame given in another.
+fn placed(outer: &Pose, inner: &Pose) -> Pose {
+    Pose {
+        position: outer.point(&inner.position),
+        orientation: quaternion::normalized(&(outer.orientation * inner.orientation)),
+    }
+}
