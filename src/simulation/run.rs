@@ -316,7 +316,7 @@ impl Course<'_> {
         }
 
         run.report.counts = simulation.counts();
-        run.report.impacts = simulation.events.len() as u64;
+        run.report.impacts = simulation.events.iter().filter(|event| event.passage.is_none()).count() as u64;
         run.report.impact_iterations = simulation.iterations;
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
