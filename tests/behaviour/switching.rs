@@ -40,6 +40,7 @@ fn the_switch_times_of_a_sawtooth_are_those_of_the_formula() {
             assert!((found - exact).abs() < 1e-14, "{way:?}: {found} {exact}");
         }
         assert!(run.events().iter().all(|event| event.kind == EventKind::Switch));
+        assert_eq!(run.report().impacts, 0);
         let names: Vec<_> = run.events()[..2].iter().map(|event| event.name.as_str()).collect();
         assert_eq!(names, ["effect 2 (thruster) on", "effect 2 (thruster) off"]);
         // the engine works only while it is on: 10 J/m lost, 30 N along the way
