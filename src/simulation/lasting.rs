@@ -349,18 +349,7 @@ impl Simulation {
         }
         let gaps: Vec<f64> = part.contacts.iter().map(|&i| cluster.gaps[i]).collect();
 
-        // as far as loads and turning allow, up to the next switch
-        let switches = led.iter().flat_map(|n| &plan.groups()[self.lanes[n.lane].group].switches);
-        let next = switches.copied().filter(|&s| s > time.value).fold(self.end, f64::min);
-        let fastest = part.places.iter().map(|&p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
-        let by_load = if pace.pull > 0.0 { (pace.size / pace.pull).sqrt() } else { f64::INFINITY };
-        let by_turning = if fastest > 0.0 { 1.0 / fastest } else { f64::INFINITY };
-        let own = self.grain.step * STEP * by_load.min(by_turning);
-        let own = match &self.controls[self.lanes[led[0].lane].group] {
-            Control::Step(step) => own.min(*step),
-            Control::Error(_) | Control::Mesh(_) => own,
-        };
-        let left = time.until(next);
+        let (own, left, next) = self.length(cluster, part, &led, pace, time);
         let full = if own < left { own } else { left };
         let mut h = full;
 
@@ -420,6 +409,46 @@ impl Simulation {
         let pairs = cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i)));
         let pairs = pairs.map(|t| t.bodies).collect();
         let bodies: Vec<usize> = part.places.iter().map(|&place| cluster.bodies[place]).collect();
+        let sliding = self.go_on_sliding(cluster, part, pace, &step);
+        let slot = self.together.iter().position(Option::is_none).unwrap_or(self.together.len());
+        if slot == self.together.len() {
+            self.together.push(None);
+        }
+        for &body in &bodies {
+            if let Some((lane, _)) = self.places[body] {
+                self.lanes[lane].led = Some(slot);
+            }
+        }
+        self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat });
+        self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
+        Ok(())
+    }
+
+    /// How long a step of a part may be: as its loads and turning allow, and what is left up to the next switch
+    /// [s]; and when that is.
+    fn length(&self, cluster: &Cluster, part: &Part, led: &[Numbers], pace: &Pace, time: Time) -> (f64, f64, f64) {
+        let switches = led.iter().flat_map(|n| &self.plan.groups()[self.lanes[n.lane].group].switches);
+        let next = switches.copied().filter(|&s| s > time.value).fold(self.end, f64::min);
+        let fastest = part.places.iter().map(|&p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
+        let by_load = if pace.pull > 0.0 { (pace.size / pace.pull).sqrt() } else { f64::INFINITY };
+        let by_turning = if fastest > 0.0 { 1.0 / fastest } else { f64::INFINITY };
+        let own = self.grain.step * STEP * by_load.min(by_turning);
+        let own = match &self.controls[self.lanes[led[0].lane].group] {
+            Control::Step(step) => own.min(*step),
+            Control::Error(_) | Control::Mesh(_) => own,
+        };
+        let left = time.until(next);
+        (own, left, next)
+    }
+
+    /// The contacts that go on sliding after a step, with their directions.
+    fn go_on_sliding(
+        &self,
+        cluster: &Cluster,
+        part: &Part,
+        pace: &Pace,
+        step: &Step,
+    ) -> Vec<([usize; 2], Vector3, Vector3)> {
         let mut sliding = Vec::new();
         for (&i, way) in part.contacts.iter().zip(&part.slides) {
             let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
@@ -433,18 +462,7 @@ impl Simulation {
                 sliding.push(([contact.a, contact.b].map(|k| cluster.bodies[k]), contact.point, way));
             }
         }
-        let slot = self.together.iter().position(Option::is_none).unwrap_or(self.together.len());
-        if slot == self.together.len() {
-            self.together.push(None);
-        }
-        for &body in &bodies {
-            if let Some((lane, _)) = self.places[body] {
-                self.lanes[lane].led = Some(slot);
-            }
-        }
-        self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat });
-        self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
-        Ok(())
+        sliding
     }
 
     /// One step of length `h` [s], with its gaps and contact speeds put right at its end.

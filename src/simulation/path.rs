@@ -39,7 +39,7 @@ enum Kind<'a> {
         coefficients: &'a [f64],
         at: usize,
         chart: &'a Chart,
-        motion: BodyMotion,
+        motion: &'a BodyMotion,
         offset: f64,
     },
     /// A closed form of this number among the group's; `offset` from its beginning [s].
@@ -56,7 +56,7 @@ impl<'a> Path<'a> {
     pub(super) fn new(
         segment: &'a Segment,
         charts: &'a [Chart],
-        motions: &[BodyMotion],
+        motions: &'a [BodyMotion],
         member: usize,
         offset: f64,
         center: Vector3,
@@ -70,7 +70,7 @@ impl<'a> Path<'a> {
                 let chart = &charts[member];
                 let spin = chart.spin_part(at).map(|(_, spin)| spin);
                 if spin.is_some_and(|spin| spin.form() == Form::WorldMatrix) {
-                    Kind::Matrix { segment, coefficients, at, chart, motion: motions[member], offset }
+                    Kind::Matrix { segment, coefficients, at, chart, motion: &motions[member], offset }
                 } else {
                     let turn = spin.and_then(Spin::axes).map_or_else(Quaternion::identity, |axes| axes.conjugate());
                     Kind::Polynomial { segment, coefficients, at, turn, offset }
@@ -127,7 +127,8 @@ impl Moving for Path<'_> {
             Kind::Resting { position, orientation } => {
                 self.instant(position, &orientation, Vector3::zeros(), Vector3::zeros())
             }
-            Kind::Matrix { segment, at, chart, mut motion, offset, .. } => {
+            Kind::Matrix { segment, at, chart, motion, offset, .. } => {
+                let mut motion = *motion;
                 let mut y = vec![0.0; segment.dimension];
                 segment.at_offset(offset + t, &mut y);
                 chart.decode(&y[at..at + chart.dimension()], &mut motion);

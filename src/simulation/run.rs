@@ -186,7 +186,7 @@ impl Plan {
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
             let gain =
-                if !has_impacts(&run) { observed_gain(self.method(), &coarser, &coarse, &run) } else { EVENT_GAIN };
+                if has_impacts(&run) { EVENT_GAIN } else { observed_gain(self.method(), &coarser, &coarse, &run) };
             let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
             run.report.error_estimate = Some(comparison.within_horizon);
             run.report.estimated_by = if comparison.worst.is_finite() {
