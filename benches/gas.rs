@@ -45,7 +45,7 @@ fn shapes() -> [Shape; 3] {
 }
 
 fn gas(count: usize) -> Scene {
-    let side = (1..).find(|side: &usize| side.pow(3) >= count).unwrap();
+    let side = (1..=count).find(|side| side.pow(3) >= count).unwrap();
     let half = 0.5 * SPACING * side as f64;
     let mut random = Random(5);
     let mut scene = Scene::new();
@@ -69,9 +69,9 @@ fn gas(count: usize) -> Scene {
 }
 
 fn main() {
-    let numbers: Vec<f64> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
-    let counts = numbers.first().map_or(vec![1000, 10_000], |n| vec![*n as usize]);
-    let per_body = numbers.get(1).copied().unwrap_or(10.0);
+    let numbers: Vec<usize> = std::env::args().skip(1).filter_map(|a| a.parse().ok()).collect();
+    let counts = numbers.first().map_or(vec![1000, 10_000], |n| vec![*n]);
+    let per_body = numbers.get(1).map_or(10.0, |n| *n as f64);
     println!("bodies  impacts  impacts/s  us/impact  energy drift");
     for count in counts {
         // a body meets another about once in the time in which it flies its spacing
