@@ -526,7 +526,7 @@ impl PyEvent {
         convert::vector(py, &self.event.impulse)
     }
 
-    /// What of the second body touched, in words.
+    /// Which features of the two bodies touched, in words.
     #[getter]
     fn features(&self) -> &str {
         &self.event.features

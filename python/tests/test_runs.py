@@ -93,7 +93,7 @@ def test_events_tell_the_bounce(run):
     assert len(run.events) == run.report.impacts == 2
     event = run.events[0]
     assert (event.kind, event.bodies) == ("bounce", ("floor", "die"))
-    assert event.features.startswith("vertex")
+    assert event.features.startswith("face 0, vertex ")
     # the finder takes rounds where the impact lies within a step; here steps of 1 ms, which do not end on it
     located = die_scene().run((0, 0.5), method="rk4", step=1e-3, estimate=False).events[0]
     assert 0 < located.iterations < 60
@@ -117,8 +117,7 @@ def test_the_report_tells_what_ran(run):
     assert 0 < report.error_estimate <= 1e-7
     assert (report.horizon, report.length_scale > 0.5) == (0.5, True)
     assert report.estimated_by == "against runs with steps twice and four times as long"
-    assert report.counts.steps > 100
-    # the closed form takes steps only so that contacts are looked for, and evaluates nothing
+    # the closed form takes steps only so that samples are read and contacts looked for, and evaluates nothing
     assert report.method == "exact"
     assert report.counts.evaluations == 0 < report.counts.steps
     assert report.counts.rejected >= 0
@@ -161,7 +160,7 @@ def test_results_read_back_equal_from_a_pickle(run):
     assert run != die_scene().run((0, 0.5), tolerance=1e-6)
     assert run["die"] != run["floor"]
     assert run.at(0.1) != run.at(0.2)
-    assert run.energy != die_scene().run((0, 0.5), tolerance=1e-4).energy
+    assert run.energy != die_scene().run((0, 0.4), tolerance=1e-7).energy
 
 
 def test_what_is_not_there_is_refused(run):
@@ -418,7 +417,7 @@ def test_a_comparison_tells_order_and_cost():
     assert table.reference_error < 1e-9
     assert table.reference == "the closed form"
     assert str(table).startswith("Error of the end state against ")
-    assert table.to_csv().splitlines()[0].startswith("method,step_s,error")
+    assert table.to_csv().splitlines()[0].startswith("method,step_s,tolerance,error")
     with pytest.raises(bryla.Error, match="method must be one of"):
         spinning_scene().compare((0, 1), methods=["rk5"])
 
