@@ -23,7 +23,7 @@ use crate::plan::cost::{BodyKind, CostTable};
 use crate::scene::{Orientation, RunOptions, Scene, Span};
 use crate::simulation::{Progress, RunError};
 use crate::text::short;
-use crate::trajectory::Trajectory;
+use crate::trajectory::{Event, Trajectory};
 
 /// Everything went well.
 const DONE: i32 = 0;
@@ -317,25 +317,33 @@ fn summary(run: &Trajectory) -> Result<String> {
         short(energy.work[last]),
         short(energy.drift())
     );
-    for event in run.events() {
-        if let Some(passage) = event.passage {
-            text += &format!("  {:<10} t = {} s, {}\n", event.name, short(event.time), passage.name());
-            continue;
-        }
-        let names = event.bodies.map(|i| run.plan().bodies()[i].name.as_str());
-        text += &format!(
-            "  {:<10} t = {} s, {}–{}, {}: impulse {} N·s, {} J lost\n",
-            event.kind.name(),
-            short(event.time),
-            names[0],
-            names[1],
-            event.features,
-            short(event.impulse.norm()),
-            short(event.energy_lost)
-        );
+    for event in run.events().iter().take(EVENTS) {
+        text += &line_of(run, event);
+    }
+    if run.events().len() > EVENTS {
+        text += &format!("  {:<10} {} more events: --out to .json keeps all\n", "…", run.events().len() - EVENTS);
     }
     text += &run.report().to_string();
     Ok(text)
+}
+
+/// Events that the summary shows [-]: what falls and comes to rest bounces a hundred times.
+const EVENTS: usize = 24;
+
+/// An event as a line of the summary.
+fn line_of(run: &Trajectory, event: &Event) -> String {
+    if let Some(passage) = event.passage {
+        return format!("  {:<10} t = {} s, {}\n", event.name, short(event.time), passage.name());
+    }
+    let [first, second] = event.bodies.map(|i| run.plan().bodies()[i].name.as_str());
+    format!(
+        "  {:<10} t = {} s, {first}–{second}, {}: impulse {} N·s, {} J lost\n",
+        event.kind.name(),
+        short(event.time),
+        event.features,
+        short(event.impulse.norm()),
+        short(event.energy_lost)
+    )
 }
 
 fn explain(path: &Path, options: &Options) -> Result<i32> {
