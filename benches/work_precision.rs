@@ -18,7 +18,7 @@ const HALVINGS: i32 = 9;
 const SHOWN: [Method; 7] =
     [Method::Euler, Method::Heun, Method::Rk4, Method::Tsit5, Method::Dop853, Method::Split4, Method::Cf4];
 /// Tolerances of the methods that choose their steps by them.
-const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let asked: Vec<_> = std::env::args().skip(1).filter(|arg| !arg.starts_with('-')).collect();
@@ -36,7 +36,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut csv =
         "scene,method,step_s,tolerance,error,evaluations,steps,seconds_min,seconds_median,cpu,rustc,date\n".to_owned();
-    for name in catalogue::NAMES {
+    // dice that meet each other diverge: the end of one run says nothing of another's error
+    for name in catalogue::NAMES.iter().filter(|name| **name != "dice") {
         if !asked.is_empty() && !asked.iter().any(|a| a == name) {
             continue;
         }
