@@ -20,13 +20,18 @@ mod families;
 #[allow(clippy::unwrap_used, reason = "a bench that cannot set itself up has failed")]
 #[path = "../tests/impact_oracle/parry.rs"]
 mod parry;
+#[allow(clippy::unwrap_used, reason = "a bench that cannot set itself up has failed")]
+#[path = "../tests/parry/mod.rs"]
+mod parry_types;
+#[path = "../tests/random/mod.rs"]
+mod random;
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use bryla::impact::{Finder, Impact, Outcome, time_of_impact};
 use cpu_time::ThreadTime;
-use families::{Case, FAMILIES, Random};
+use families::{Case, FAMILIES, random};
 
 /// Pairs of each family.
 const PAIRS: usize = 1000;
@@ -59,10 +64,10 @@ fn main() {
         "family", "hits", "rounds", "median", "p99", "parry", "p99"
     );
     for (name, family) in FAMILIES {
-        let mut random = Random::new(name);
+        let mut numbers = random(name);
         let (mut times, mut parry_times, mut rounds, mut hits) = (Vec::new(), Vec::new(), 0, 0);
         for _ in 0..PAIRS {
-            let case = family(&mut random);
+            let case = family(&mut numbers);
             let found = search(&case, None, Finder::Guaranteed);
             rounds += found.iterations;
             hits += usize::from(found.outcome == Outcome::At);
@@ -84,10 +89,10 @@ fn main() {
     println!("\n{:<11} {:>8} {:>7} {:>8} {:>8} {:>9}", "finder", "ε/size", "pairs", "rounds", "queries", "median µs");
     for &finder in Finder::ALL {
         for eps in [1e-3, 1e-6, 1e-9, 1e-12] {
-            let mut random = Random::new("tumble");
+            let mut numbers = random("tumble");
             let (mut times, mut rounds, mut queries) = (Vec::new(), 0, 0);
             for _ in 0..PAIRS {
-                let case = FAMILIES[1].1(&mut random);
+                let case = FAMILIES[1].1(&mut numbers);
                 let eps = Some(eps * (case.a.radius() + case.b.radius()));
                 if FAMILIES[1].0 != "tumble" || search(&case, eps, Finder::Bisection).outcome != Outcome::At {
                     continue;

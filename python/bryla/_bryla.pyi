@@ -1386,8 +1386,8 @@ class Scene:
         eps : float, optional
             Gap at which a contact is accepted [m]; 1e-12 of the pair's size by default.
         restitution_law : {"newton", "poisson", "stronge"}, optional
-            What comes back where friction couples normal and tangent: the normal velocity (default), the
-            impulse of compression, or its work.
+            What comes back where friction couples normal and tangent: the impulse of compression (default),
+            the normal velocity, or the work of compression.
         events : list of UserEvent, optional
             What is watched for.
         progress : bool

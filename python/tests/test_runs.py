@@ -267,8 +267,13 @@ def test_a_run_that_breaks_off_keeps_what_it_computed():
     error = caught.value
     assert isinstance(error, RuntimeError)
     assert error.bodies == ["floor", "egg"]
-    # it falls by some 0.05 m
-    assert error.time == pytest.approx(np.sqrt(0.1 / 9.81), abs=5e-3)
+    # it falls until its lowest point, sqrt((c cos t)**2 + (a sin t)**2) below the centre, is down; found to 1e-12 of
+    # its size, at 1 m/s
+    landing = 0.1
+    for _ in range(60):
+        lowest = np.hypot(0.15 * np.cos(landing), 0.1 * np.sin(landing))
+        landing = np.sqrt(2 * (0.2 - lowest) / 9.81)
+    assert error.time == pytest.approx(landing, abs=1e-12)
     assert error.trajectory.end == error.time
     assert error.trajectory.t[-1] <= error.time
     back = pickle.loads(pickle.dumps(error))
@@ -395,8 +400,8 @@ def test_a_comparison_by_tolerance():
     scene.add_effect(bryla.Wrench("book", (0, 0, 0), (1e-4, 0, 0)))
     table = scene.compare((0, 1), methods=["tsit5", "dop853"], steps=[1e-3], tolerances=[1e-6, 1e-9], repeats=1)
     assert [row.tolerance for row in table.rows] == [None, 1e-6, 1e-9] * 2
-    # a run without an estimate promises less than one with it: within a decade of what was asked
-    assert all(row.error < 10 * row.tolerance for row in table.rows if row.tolerance)
+    # the tolerance is kept, though no estimate says so
+    assert all(row.error < row.tolerance for row in table.rows if row.tolerance)
     assert table.rows[2].evaluations > table.rows[1].evaluations
     assert len(table.plot().axes[0].get_lines()) == 4
     with pytest.raises(bryla.Error, match="compare: tolerances must be steps for rk4"):

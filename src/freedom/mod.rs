@@ -292,3 +292,45 @@ fn inverse(inertia: &Matrix3) -> Matrix3 {
 fn about_point(motion: &BodyMotion, r: &Vector3) -> Matrix3 {
     motion.inertia_body + motion.mass * (Matrix3::identity() * r.norm_squared() - r * r.transpose())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::quaternion;
+
+    #[test]
+    fn a_constant_load_changes_the_numbers_as_any_load_does() {
+        // lopsided, so that body axes, principal axes and world axes all differ, and turned
+        let inertia = Matrix3::new(1.3, 0.2, -0.1, 0.2, 0.9, 0.15, -0.1, 0.15, 1.6);
+        let mut motion = BodyMotion::at_rest(2.0, inertia);
+        motion.position = Vector3::new(0.3, -0.2, 0.5);
+        motion.orientation = quaternion::exp(&Vector3::new(0.7, -1.1, 0.4));
+        motion.rotation = quaternion::to_matrix(&motion.orientation);
+        let force = Vector3::new(0.7, -1.9, 1.2);
+        let freedoms =
+            [Freedom::Free, Freedom::pivot([0.1, -0.2, 0.3]), Freedom::axle([0.1, -0.2, 0.3], [0.3, 0.5, -0.8])];
+        for (freedom, form) in freedoms
+            .iter()
+            .flat_map(|freedom| [Form::WorldQuaternion, Form::WorldMatrix, Form::Body].map(|form| (freedom, form)))
+        {
+            let chart = Chart::new(freedom, form, &motion, "body").unwrap();
+            let n = chart.dimension();
+            let mut y = vec![0.0; n];
+            chart.encode(&motion.state(), &mut y);
+            // off the sphere by a hair, as within a step, and moving
+            y.iter_mut().enumerate().for_each(|(i, y)| *y += 1e-3 * (1.0 + i as f64));
+            for torque in [Vector3::zeros(), Vector3::new(0.4, 0.8, -0.6)] {
+                let load = Load { force, torque };
+                let (mut read, mut scratch) = (motion, motion);
+                let (mut expected, mut dy) = (vec![0.0; n], vec![f64::NAN; n]);
+                chart.decode(&y, &mut read);
+                chart.rate(&y, &read, &load, &mut expected);
+                chart.rate_constant(&y, &mut scratch, &load, &mut dy);
+                for (dy, expected) in dy.iter().zip(&expected) {
+                    // the same formula in another order: some ten roundings of numbers of size 2
+                    assert!((dy - expected).abs() < 20.0 * f64::EPSILON, "{freedom:?} {form:?}: {dy} {expected}");
+                }
+            }
+        }
+    }
+}

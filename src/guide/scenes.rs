@@ -365,7 +365,7 @@
 //! | `projection` | | `true` | whether orientations are put back on their sphere after each step |
 //! | `finder` | | `"guaranteed"` | how the time of contact is found: `"guaranteed"` proves every piece of the way free; the lecture's `"secant"` and `"bisection"` look at the ends of steps |
 //! | `eps` | m | 1e-12 of the pair's size | gap at which a contact is accepted; never below the rounding of the coordinates |
-//! | `restitution_law` | | `"newton"` | what comes back where friction couples normal and tangent: the normal velocity (`"newton"`), the impulse of compression (`"poisson"`), or its work (`"stronge"`) |
+//! | `restitution_law` | | `"poisson"` | what comes back where friction couples normal and tangent: the impulse of compression (`"poisson"`), the normal velocity (`"newton"`), or the work of compression (`"stronge"`) |
 //! | `events` | | none | a list: what is watched for; see [Events](#events) |
 //!
 //! ```toml

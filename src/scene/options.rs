@@ -147,7 +147,7 @@ impl Default for RunOptions {
             projection: true,
             finder: Finder::Guaranteed,
             eps: None,
-            restitution_law: Law::Newton,
+            restitution_law: Law::default(),
             events: Vec::new(),
         }
     }

@@ -10,7 +10,8 @@
 //! by their series (`contact::accumulation`), and is the time of the event.
 
 use super::cluster::{Cluster, in_words};
-use super::lasting::{Led, Part, shift_by};
+use super::lasting::{Part, shift_by};
+use super::led::Led;
 use super::near::{Due, What};
 use super::{Failure, Simulation, SimulationError};
 use crate::closest::ClosestFeatures;
@@ -42,7 +43,7 @@ const LIFT: f64 = 0.1;
 const END_ERROR: f64 = 1.0e-9;
 
 /// The scales of a cluster: which speeds count as what.
-pub(super) struct Pace {
+pub(super) struct ContactScales {
     /// Largest acceleration that the loads give a body [m/s²].
     pub(super) pull: f64,
     /// Size of the smallest pair [m].
@@ -81,8 +82,8 @@ impl Simulation {
         for (body, answer, closest, obstacle) in &stuck {
             self.book_stick(&cluster, &before, *body, *answer, closest, *obstacle, (time, iterations));
         }
-        let pace = self.pace(&cluster, time);
-        let bounced = self.collide(&mut cluster, &pace, time, iterations)?;
+        let scales = self.scales(&cluster, time);
+        let bounced = self.collide(&mut cluster, &scales, time, iterations)?;
         if bounced {
             for &body in cluster.bodies.iter().filter(|&&i| self.places[i].is_some()) {
                 if self.near.count_hit(body, time.value) > ROUNDS_AT_ONCE {
@@ -94,7 +95,7 @@ impl Simulation {
         self.iterations += u64::from(iterations);
 
         // who stays together, and who flies
-        let parts = self.settle(&mut cluster, &pace, time)?;
+        let parts = self.settle(&mut cluster, &scales, time)?;
         let mut modes = vec![Mode::Fly; cluster.bodies.len()];
         for part in &parts {
             for &place in &part.places {
@@ -118,7 +119,7 @@ impl Simulation {
                 self.released.push((touching.bodies, opening.fold(f64::INFINITY, f64::min)));
             }
         }
-        self.go_on(&cluster, &before, &modes, &parts, &pace, time, record)
+        self.go_on(&cluster, &before, &modes, &parts, &scales, time, record)
     }
 
     /// All that touches, with the whole of every part that is led.
@@ -182,7 +183,7 @@ impl Simulation {
     }
 
     /// The scales of a cluster.
-    fn pace(&self, cluster: &Cluster, time: Time) -> Pace {
+    fn scales(&self, cluster: &Cluster, time: Time) -> ContactScales {
         let pull = |(&body, motion): (&usize, &BodyMotion)| match self.places[body] {
             Some((lane, _)) => {
                 let still = BodyMotion { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros(), ..*motion };
@@ -202,23 +203,23 @@ impl Simulation {
         let fastest = cluster.bodies.iter().zip(&cluster.motions).map(speed).fold(0.0, f64::max);
         let rest = rest_speed(pull, REST_RISE * size);
         let small = (SMALL[0] * rest).max(SMALL[1] * fastest);
-        Pace { pull, size, rest, small, slip: (SLIP * (pull * size).sqrt()).max(SMALL[1] * fastest) }
+        ContactScales { pull, size, rest, small, slip: (SLIP * (pull * size).sqrt()).max(SMALL[1] * fastest) }
     }
 
     /// The impact of a cluster, if anything approaches; whether anything did.
     fn collide(
         &mut self,
         cluster: &mut Cluster,
-        pace: &Pace,
+        scales: &ContactScales,
         time: Time,
         iterations: u32,
     ) -> Result<bool, SimulationError> {
         let approaches: Vec<f64> = cluster.contacts.iter().map(|c| cluster.approach(c)).collect();
-        if approaches.iter().all(|&u| u <= pace.small) {
+        if approaches.iter().all(|&u| u <= scales.small) {
             return Ok(false);
         }
         let mut contacts = cluster.contacts.clone();
-        if approaches.iter().all(|&u| u <= pace.rest) {
+        if approaches.iter().all(|&u| u <= scales.rest) {
             for contact in &mut contacts {
                 contact.restitution = 0.0;
             }
@@ -239,13 +240,13 @@ impl Simulation {
         let mut iterations = iterations;
         for k in 0..cluster.touching.len() {
             let range = cluster.touching[k].contacts.clone();
-            let bounces = approaches[range.clone()].iter().any(|&u| u > pace.rest)
+            let bounces = approaches[range.clone()].iter().any(|&u| u > scales.rest)
                 || collision.impulses[range.clone()].iter().any(|j| {
                     let [a, b] = cluster.touching[k].bodies;
                     let mass = [a, b].map(|i| {
                         if self.places[i].is_some() { self.plan.bodies()[i].properties.mass } else { f64::INFINITY }
                     });
-                    j.norm() > pace.rest * mass[0].min(mass[1])
+                    j.norm() > scales.rest * mass[0].min(mass[1])
                 });
             if bounces {
                 booked += self.book_bounce(cluster, &before, &collision, k, time, iterations);
@@ -407,7 +408,7 @@ impl Simulation {
         before: &[BodyMotion],
         modes: &[Mode],
         parts: &[Part],
-        pace: &Pace,
+        scales: &ContactScales,
         time: Time,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
@@ -449,7 +450,7 @@ impl Simulation {
             self.begin_flight(lane, time, cluster, leads, record)?;
         }
         for part in parts.iter().filter(|part| !part.rests) {
-            self.lead(cluster, part, pace, time)?;
+            self.lead(cluster, part, scales, time)?;
         }
         for &lane in &lanes {
             if !self.lanes[lane].is_led() {

@@ -1,48 +1,25 @@
-//! Bodies that stay together: they rest, or they slide, roll and tip on each other.
+//! Bodies that stay together: which contacts last, and whether their bodies rest.
 //!
 //! ```text
 //! settle   which contacts last and which open, by the laws of contact for accelerations (`contact::rest`)
 //! rest     no speed, no acceleration, loads that do not change: frozen where they are
-//! lead     a step of Runge and Kutta of order 4 with the contacts' forces in every stage, to its end or to the
-//!          first instant at which a slip turns round or another point of a pair touches
 //! ```
 //!
-//! After a step the gaps are what they were, and contacts that carry have no speed along their normals: what
-//! the step's error of fifth order has left of either is taken away by the smallest displacement, and the
-//! smallest impulse, which takes energy. Between the ends of a step the motion is the cubic through both.
-//! Heat of friction is the integral of −f·u by the same stages.
+//! What lasts and does not rest is [led](super::lead).
 
-use super::answer::Pace;
+use super::answer::ContactScales;
 use super::cluster::Cluster;
-use super::{Failure, Lane, Simulation, SimulationError};
-use crate::contact::anchor::Anchor;
+use super::{Failure, Simulation, SimulationError};
 use crate::contact::cluster::{ClusterBody, ClusterError, Contact};
-use crate::contact::collision::{Law, collide};
 use crate::contact::rest::{Acceleration, Hold, Rest, Support, align, rest_sliding};
 use crate::effect::AnyEffect;
-use crate::freedom::Chart;
-use crate::integrator::{Control, Counts, Flight, FlightError, Front, Segment};
 use crate::math::sum::Time;
 use crate::math::{Vector3, quaternion};
 use crate::state::{BodyMotion, Load, Moment};
-use crate::trajectory::{Heat, decode};
+use crate::trajectory::Heat;
 
-/// Length of a contact's step, in times that its loads take for its size, and in radians [-]. Smaller: errors of
-/// sliding, rolling and tipping fall with its fourth power.
-const STEP: f64 = 0.04;
 /// Acceleration that contact forces may leave of the loads' for an equilibrium [-]; solvers leave 1e-11.
 const EQUILIBRIUM: f64 = 1.0e-9;
-/// How much faster than μ a friction may change a slip, at a corner far from the centre of mass [-].
-const STIFF: f64 = 4.0;
-/// How often a step is shortened for what happens within it [-]: a slip that ends, then a touch before it.
-const SHORTER: usize = 8;
-/// A step is short below this part of its length [-]; so many in a row are too many.
-const SHORT: f64 = 1.0e-3;
-const SHORTS: u32 = 10_000;
-/// Halvings to an instant within a step [-]: to 1e-12 of it.
-const HALVINGS: usize = 40;
-/// A step this much shorter than the one before is the same [-].
-const SAME: f64 = 1.0 - 1.0e-9;
 
 /// Bodies in contacts that last, moving together.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,17 +44,17 @@ pub(super) struct Part {
     /// Its contacts, as places in the cluster's list.
     pub(super) contacts: Vec<usize>,
     /// Where each of them slides, world axes.
-    slides: Vec<Option<Vector3>>,
+    pub(super) slides: Vec<Option<Vector3>>,
     /// Whether it rests.
     pub(super) rests: bool,
 }
 
 /// The contacts of a part at an instant, and what the laws of contact say.
-struct Held {
-    contacts: Vec<Contact>,
+pub(super) struct Held {
+    pub(super) contacts: Vec<Contact>,
     /// Velocity of b relative to a at each contact [m/s].
-    slips: Vec<Vector3>,
-    rest: Rest,
+    pub(super) slips: Vec<Vector3>,
+    pub(super) rest: Rest,
 }
 
 impl Simulation {
@@ -86,15 +63,15 @@ impl Simulation {
     pub(super) fn settle(
         &mut self,
         cluster: &mut Cluster,
-        pace: &Pace,
+        scales: &ContactScales,
         time: Time,
     ) -> Result<Vec<Part>, SimulationError> {
-        let slow = pace.rest.max(pace.small);
+        let slow = scales.rest.max(scales.small);
         let near: Vec<usize> =
             (0..cluster.contacts.len()).filter(|&i| cluster.approach(&cluster.contacts[i]) >= -slow).collect();
         let mut parts = Vec::new();
         for (places, contacts) in self.joined(cluster, &near) {
-            let slides: Vec<Option<Vector3>> = contacts.iter().map(|&i| self.slide(cluster, pace, i)).collect();
+            let slides: Vec<Option<Vector3>> = contacts.iter().map(|&i| self.slide(cluster, scales, i)).collect();
             let held = self.held(cluster, &cluster.motions, &contacts, &slides, time)?;
 
             // what opens leaves; the rest may fall into several parts
@@ -107,12 +84,12 @@ impl Simulation {
                 let why = format!("{name} is switched by the state, which is not watched in a contact that lasts");
                 return Err(self.lasting(cluster, &cluster.contacts[contact], time, &why));
             }
-            self.still_contacts(cluster, &places, &held, &kept, pace, time);
+            self.still_contacts(cluster, &places, &held, &kept, scales, time);
             let still = |&place: &usize| {
                 let (motion, radius) = (&cluster.motions[place], self.plan.bodies()[cluster.bodies[place]].radius);
                 let acceleration = &held.rest.accelerations[place];
-                motion.velocity.norm() + motion.angular_velocity.norm() * radius <= pace.small
-                    && acceleration.linear.norm() + acceleration.angular.norm() * radius <= EQUILIBRIUM * pace.pull
+                motion.velocity.norm() + motion.angular_velocity.norm() * radius <= scales.small
+                    && acceleration.linear.norm() + acceleration.angular.norm() * radius <= EQUILIBRIUM * scales.pull
             };
             for (places, contacts) in self.joined(cluster, &kept_contacts) {
                 let steady = places.iter().all(|&place| self.is_steady(cluster.bodies[place]));
@@ -139,13 +116,13 @@ impl Simulation {
         places: &[usize],
         held: &Held,
         kept: &[usize],
-        pace: &Pace,
+        scales: &ContactScales,
         time: Time,
     ) {
         let (mut rows, mut changes) = (Vec::new(), Vec::new());
         for &k in kept {
             let (n, slip) = (held.rest.normals[k], &held.slips[k]);
-            let sticks = held.rest.holds[k] == Hold::Stick && across(slip, &n).norm() <= pace.slip;
+            let sticks = held.rest.holds[k] == Hold::Stick && across(slip, &n).norm() <= scales.slip;
             let [_, s, t] = tangents(&n);
             let ways = [Some(n), sticks.then_some(s), sticks.then_some(t)];
             for way in ways.into_iter().flatten() {
@@ -197,12 +174,12 @@ impl Simulation {
     }
 
     /// The direction in which a contact slides, if it does.
-    fn slide(&self, cluster: &Cluster, pace: &Pace, contact: usize) -> Option<Vector3> {
+    fn slide(&self, cluster: &Cluster, scales: &ContactScales, contact: usize) -> Option<Vector3> {
         let contact = &cluster.contacts[contact];
         let n = contact.normals.iter().sum::<Vector3>().try_normalize(0.0)?;
         let slip = across(&contact.slip(&cluster.motions), &n);
         let speed = slip.norm();
-        if speed > pace.slip {
+        if speed > scales.slip {
             return Some(slip / speed);
         }
 
@@ -215,7 +192,7 @@ impl Simulation {
     }
 
     /// The laws of contact for these motions of a cluster's bodies.
-    fn held(
+    pub(super) fn held(
         &self,
         cluster: &Cluster,
         motions: &[BodyMotion],
@@ -315,548 +292,17 @@ impl Simulation {
     }
 
     /// The named end of a run at a contact that this version cannot follow.
-    fn lasting(&self, cluster: &Cluster, contact: &Contact, time: Time, why: &str) -> SimulationError {
+    pub(super) fn lasting(&self, cluster: &Cluster, contact: &Contact, time: Time, why: &str) -> SimulationError {
         let bodies = [contact.a, contact.b].map(|k| cluster.bodies[k]);
         self.failure_of(&bodies, time.value, Failure::LastingContact(why.to_owned()))
     }
-
-    /// Leads a part of a cluster, which stands where its bodies are at `time`, through one step. Its lanes fly
-    /// [`Led`].
-    pub(super) fn lead(
-        &mut self,
-        cluster: &Cluster,
-        part: &Part,
-        pace: &Pace,
-        time: Time,
-    ) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
-        let mut led = Vec::new();
-        for &place in &part.places {
-            let body = cluster.bodies[place];
-            let Some((lane, member)) = self.places[body] else { continue };
-            let spec = &plan.groups()[self.lanes[lane].group];
-            if spec.members.iter().filter(|&&i| !plan.bodies()[i].fixed).count() > 1 {
-                let why = format!(
-                    "{} shares its flight with other bodies, to which an effect joins it",
-                    plan.bodies()[body].name
-                );
-                return Err(self.lasting(cluster, &cluster.contacts[part.contacts[0]], time, &why));
-            }
-            let chart = self.lanes[lane].charts[member].clone();
-            let mut y = vec![0.0; chart.dimension()];
-            chart.encode(&cluster.motions[place].state(), &mut y);
-            led.push(Numbers { place, lane, chart, y });
-        }
-        let gaps: Vec<f64> = part.contacts.iter().map(|&i| cluster.gaps[i]).collect();
-
-        let (own, left, next) = self.length(cluster, part, &led, pace, time);
-        let full = if own < left { own } else { left };
-        let mut h = full;
-
-        // shorter, where a slip turns round or another point touches within it, or where a slip that dies is
-        // slow: its direction changes in u/(μ a). What begins to slide takes the whole step at once
-        let mut kind = Kind::Explicit;
-        let mut step = self.try_step(cluster, part, &led, &gaps, pace, time, h, kind)?;
-        for _ in 0..SHORTER {
-            let shorter = self.first_end(cluster, part, &led, &step, time)?;
-            if shorter < SAME * h && shorter > 0.0 {
-                h = shorter;
-                step = self.try_step(cluster, part, &led, &gaps, pace, time, h, kind)?;
-                continue;
-            }
-            if kind == Kind::Implicit {
-                break;
-            }
-            match self.slips(cluster, part, pace, &step) {
-                Slips::Fast => break,
-                Slips::Dying(suits) => h = suits.min(h),
-                Slips::Beginning => kind = Kind::Implicit,
-            }
-            step = self.try_step(cluster, part, &led, &gaps, pace, time, h, kind)?;
-        }
-
-        // steps that stay short for ever: touches that follow each other without end
-        let shorts = led.iter().map(|n| self.lanes[n.lane].short).fold(0, u32::max);
-        let shorts = if h < SHORT * full { shorts + 1 } else { 0 };
-        if shorts > SHORTS {
-            let why = format!("{SHORTS} steps in a row end in new touches, the last one after {h:e} s");
-            return Err(self.lasting(cluster, &cluster.contacts[part.contacts[0]], time, &why));
-        }
-
-        // the numbers and their polynomials
-        let front = if h == left { Time::new(next) } else { time + h };
-        self.together_number += 1;
-        let number = self.together_number;
-        for (n, end) in led.iter().zip(&step.ends) {
-            let since = self.moment(n.lane, time.value).since;
-            let mut segment = Segment::default();
-            segment.set_hermite(Moment { time: time.value, since }, h, [&n.y, &end.k0, &end.y1, &end.k1]);
-            segment.end = front.value;
-            let lane = &mut self.lanes[n.lane];
-            let mut counts = *lane.flight.counts();
-            counts.steps += 1;
-            counts.evaluations += 4;
-            let rest = vec![0.0; end.y1.len()];
-            lane.short = shorts;
-            lane.flight.resume(&Front { time: front, since, y: end.y1.clone(), rest }, segment, counts);
-            lane.pending = Some(f64::INFINITY);
-        }
-        let heat = (step.heat != 0.0).then_some(self.heat.len());
-        if heat.is_some() {
-            let (from, to) = (time.value, front.value);
-            self.heat.push(Heat { from, to, joules: step.heat, power: step.power });
-        }
-        let pairs = cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i)));
-        let pairs = pairs.map(|t| t.bodies).collect();
-        let bodies: Vec<usize> = part.places.iter().map(|&place| cluster.bodies[place]).collect();
-        let sliding = self.go_on_sliding(cluster, part, pace, &step);
-        let slot = self.together.iter().position(Option::is_none).unwrap_or(self.together.len());
-        if slot == self.together.len() {
-            self.together.push(None);
-        }
-        for &body in &bodies {
-            if let Some((lane, _)) = self.places[body] {
-                self.lanes[lane].led = Some(slot);
-            }
-        }
-        self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat });
-        self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
-        Ok(())
-    }
-
-    /// How long a step of a part may be: as its loads and turning allow, and what is left up to the next switch
-    /// [s]; and when that is.
-    fn length(&self, cluster: &Cluster, part: &Part, led: &[Numbers], pace: &Pace, time: Time) -> (f64, f64, f64) {
-        let switches = led.iter().flat_map(|n| &self.plan.groups()[self.lanes[n.lane].group].switches);
-        let next = switches.copied().filter(|&s| s > time.value).fold(self.end, f64::min);
-        let fastest = part.places.iter().map(|&p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
-        let by_load = if pace.pull > 0.0 { (pace.size / pace.pull).sqrt() } else { f64::INFINITY };
-        let by_turning = if fastest > 0.0 { 1.0 / fastest } else { f64::INFINITY };
-        let own = self.grain.step * STEP * by_load.min(by_turning);
-        let own = match &self.controls[self.lanes[led[0].lane].group] {
-            Control::Step(step) => own.min(*step),
-            Control::Error(_) | Control::Mesh(_) => own,
-        };
-        let left = time.until(next);
-        (own, left, next)
-    }
-
-    /// The contacts that go on sliding after a step, with their directions.
-    fn go_on_sliding(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        pace: &Pace,
-        step: &Step,
-    ) -> Vec<([usize; 2], Vector3, Vector3)> {
-        let mut sliding = Vec::new();
-        for (&i, way) in part.contacts.iter().zip(&part.slides) {
-            let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
-            let contact = &cluster.contacts[i];
-            let start = contact.slip(&cluster.motions);
-            let contact = anchor.support(contact, &self.cluster_bodies(cluster, &step.motions)).contact;
-            let end = contact.slip(&step.motions);
-            if way.dot(&end) > pace.slip || way.dot(&end) > way.dot(&start) {
-                let slip = across(&end, &contact.normals[0]);
-                let way = if way.dot(&slip) > 0.0 { slip.normalize() } else { *way };
-                sliding.push(([contact.a, contact.b].map(|k| cluster.bodies[k]), contact.point, way));
-            }
-        }
-        sliding
-    }
-
-    /// One step of length `h` [s], with its gaps and contact speeds put right at its end.
-    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
-    fn try_step(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        gaps: &[f64],
-        pace: &Pace,
-        time: Time,
-        h: f64,
-        kind: Kind,
-    ) -> Result<Step, SimulationError> {
-        let mut power = [0.0; 2];
-        let (mut heat, mut first) = (0.0, Vec::new());
-        let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
-        if kind == Kind::Implicit {
-            let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
-            let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, pace, time)?;
-            (first, power[0]) = (rates, held.heat());
-            let (motions, lost) = self.implicit(cluster, part, time, h)?;
-            heat = lost;
-            for (n, y) in led.iter().zip(&mut y1) {
-                n.chart.encode(&motions[n.place].state(), y);
-            }
-        } else {
-            let mut k: Vec<Vec<f64>> = Vec::new();
-            for (at, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-                let y: Vec<Vec<f64>> = led
-                    .iter()
-                    .enumerate()
-                    .map(|(i, n)| match k.get(i) {
-                        Some(k) => n.y.iter().zip(k).map(|(y, k)| y + at * h * k).collect(),
-                        None => n.y.clone(),
-                    })
-                    .collect();
-                let motions = moved(cluster, led, &y);
-                let (held, rates) = self.rates(cluster, part, led, &motions, &y, pace, time + at * h)?;
-                heat += weight / 6.0 * h * held.heat();
-                for (y, k) in y1.iter_mut().zip(&rates) {
-                    y.iter_mut().zip(k).for_each(|(y, k)| *y += weight / 6.0 * h * k);
-                }
-                if first.is_empty() {
-                    first.clone_from(&rates);
-                    power[0] = held.heat();
-                }
-                k = rates;
-            }
-        }
-
-        // gaps as they were, no speed along the normals of what carries, none at all where it sticks
-        let mut motions = moved(cluster, led, &y1);
-        if motions.iter().any(|motion| !motion.is_finite()) {
-            return Err(self.failure_of(&cluster.bodies, time.value, Failure::Flight(FlightError::NotFinite)));
-        }
-        let (held, _) = self.rates(cluster, part, led, &motions, &y1, pace, time + h)?;
-        power[1] = held.heat();
-        let (mut rows, mut lifts, mut stops, mut carrying) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        for (i, &c) in part.contacts.iter().enumerate() {
-            let (contact, slip) = (&held.contacts[i], &held.slips[i]);
-            let n = held.rest.normals[i];
-            if held.rest.holds[i] == Hold::Separate || n.dot(slip) > pace.slip {
-                continue;
-            }
-            let gap = cluster.anchors[c].map_or(gaps[i], |a| a.gap(&motions[contact.a], &motions[contact.b]));
-            carrying.push(c);
-            rows.push((i, n));
-            lifts.push(gaps[i] - gap);
-            stops.push(-n.dot(slip));
-            if held.rest.holds[i] == Hold::Stick {
-                let [_, s, t] = tangents(&n);
-                for way in [s, t] {
-                    rows.push((i, way));
-                    lifts.push(0.0);
-                    stops.push(-way.dot(slip));
-                }
-            }
-        }
-        let bodies = self.cluster_bodies(cluster, &motions);
-        for (motion, shift) in motions.iter_mut().zip(align(&bodies, &held.contacts, &rows, &lifts)) {
-            shift_by(motion, &shift.linear, &shift.angular);
-        }
-        let before: f64 = led.iter().map(|n| motions[n.place].kinetic_energy()).sum();
-        for (motion, change) in motions.iter_mut().zip(align(&bodies, &held.contacts, &rows, &stops)) {
-            motion.velocity += change.linear;
-            motion.angular_velocity += change.angular;
-        }
-        heat += before - led.iter().map(|n| motions[n.place].kinetic_energy()).sum::<f64>();
-        for (n, y) in led.iter().zip(&mut y1) {
-            n.chart.encode(&motions[n.place].state(), y);
-        }
-        let last = self.rates_under(led, &motions, &y1, &held, time + h);
-        let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
-        Ok(Step { h, kind, ends, motions, heat, power, carrying })
-    }
-
-    /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
-    /// contacts half way, and the heat of its impulses [J]. Momenta stay where nothing acts:
-    ///
-    /// ```text
-    /// L⁺ = L + h M + Σ r × j        ω = I⁻¹ L with I half way        x⁺ = x + ½ h (v + v⁺)
-    /// ```
-    fn implicit(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        time: Time,
-        h: f64,
-    ) -> Result<(Vec<BodyMotion>, f64), SimulationError> {
-        // half way, with the momenta of the start, and then with what the loads add to them
-        let moves = |body: usize| self.places[body].filter(|_| !self.is_stuck(body));
-        let inverse = |body: usize, motion: &BodyMotion, l: &Vector3| {
-            let own = motion.rotation.tr_mul(l);
-            motion.rotation * (self.plan.bodies()[body].properties.inv_inertia() * own)
-        };
-        let mut half = cluster.motions.clone();
-        for (&body, motion) in cluster.bodies.iter().zip(&mut half).filter(|(body, _)| moves(**body).is_some()) {
-            let l = motion.angular_momentum();
-            let (v, w) = (motion.velocity, motion.angular_velocity);
-            shift_by(motion, &(0.5 * h * v), &(0.5 * h * w));
-            motion.angular_velocity = inverse(body, motion, &l);
-        }
-        let mut pushed = half.clone();
-        for (&body, motion) in cluster.bodies.iter().zip(&mut pushed) {
-            let Some((lane, _)) = moves(body) else { continue };
-            let load = self.load_on(lane, motion, self.moment(lane, time.value + 0.5 * h));
-            motion.velocity += h / motion.mass * load.force;
-            motion.angular_velocity += h * inverse(body, motion, &load.torque);
-        }
-        let bodies = self.cluster_bodies(cluster, &pushed);
-        let contacts: Vec<Contact> = part
-            .contacts
-            .iter()
-            .map(|&i| {
-                let contact = &cluster.contacts[i];
-                cluster.anchors[i].map_or_else(|| contact.clone(), |anchor| anchor.support(contact, &bodies).contact)
-            })
-            .collect();
-        let contacts: Vec<Contact> = contacts.into_iter().map(|contact| contact.restitution(0.0)).collect();
-        let after = collide(&bodies, &contacts, Law::Newton).map_err(|why| {
-            let why = Failure::Refused(format!("the contact forces of a step cannot be found: {why}"));
-            self.failure_of(&cluster.bodies, time.value, why)
-        })?;
-
-        let mut ends = half.clone();
-        let mut motions = cluster.motions.clone();
-        for (k, &body) in cluster.bodies.iter().enumerate().filter(|(_, body)| moves(**body).is_some()) {
-            (ends[k].velocity, ends[k].angular_velocity) = (after.velocities[k].linear, after.velocities[k].angular);
-            let l = ends[k].angular_momentum();
-            let (v, w) = (half[k].velocity + ends[k].velocity, half[k].angular_velocity + ends[k].angular_velocity);
-            shift_by(&mut motions[k], &(0.5 * h * v), &(0.5 * h * w));
-            motions[k].velocity = ends[k].velocity;
-            motions[k].angular_velocity = inverse(body, &motions[k], &l);
-        }
-        let slips = contacts.iter().map(|contact| contact.slip(&half) + contact.slip(&ends));
-        let heat = -slips.zip(&after.impulses).map(|(u, j)| 0.5 * j.dot(&u)).sum::<f64>();
-        Ok((motions, heat))
-    }
-
-    /// How the slips of a step compare with what friction changes in it.
-    fn slips(&self, cluster: &Cluster, part: &Part, pace: &Pace, step: &Step) -> Slips {
-        let bodies = self.cluster_bodies(cluster, &step.motions);
-        let (mut shortest, mut begins) = (f64::INFINITY, false);
-        for (&i, way) in part.contacts.iter().zip(&part.slides) {
-            let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
-            let contact = &cluster.contacts[i];
-            let change = STIFF * contact.friction * pace.pull;
-            let start = contact.slip(&cluster.motions);
-            let end = anchor.support(contact, &bodies).contact.slip(&step.motions);
-            let speed = across(&start, &contact.normals[0]).norm();
-            if speed >= change * step.h || (way.dot(&end) < way.dot(&start) && end.norm() <= pace.slip) {
-                continue; // fast enough, or come to its end
-            }
-            if way.dot(&end) < way.dot(&start) && speed > pace.slip {
-                shortest = shortest.min(speed / change);
-            } else {
-                begins = true;
-            }
-        }
-        if begins {
-            Slips::Beginning
-        } else if shortest.is_finite() {
-            Slips::Dying(shortest)
-        } else {
-            Slips::Fast
-        }
-    }
-
-    /// What the contacts do at these motions, and the rates of the numbers.
-    #[expect(clippy::too_many_arguments, reason = "what a stage is made of")]
-    fn rates(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        motions: &[BodyMotion],
-        y: &[Vec<f64>],
-        pace: &Pace,
-        time: Time,
-    ) -> Result<(Held, Vec<Vec<f64>>), SimulationError> {
-        // friction opposes the slip, on the side of the step's beginning
-        let bodies = self.cluster_bodies(cluster, motions);
-        let slide = |(i, way): (&usize, &Option<Vector3>)| {
-            let (contact, way) = (&cluster.contacts[*i], (*way)?);
-            let now = cluster.anchors[*i].map(|anchor| anchor.support(contact, &bodies).contact);
-            let contact = now.as_ref().unwrap_or(contact);
-            let slip = across(&contact.slip(motions), &contact.normals[0]);
-            let speed = slip.norm();
-            Some(if speed > pace.slip { slip / speed * slip.dot(&way).signum() } else { way })
-        };
-        let slides: Vec<Option<Vector3>> = part.contacts.iter().zip(&part.slides).map(slide).collect();
-        let held = self.held(cluster, motions, &part.contacts, &slides, time)?;
-        let rates = self.rates_under(led, motions, y, &held, time);
-        Ok((held, rates))
-    }
-
-    /// The rates of the numbers under the loads and these contact forces.
-    fn rates_under(
-        &self,
-        led: &[Numbers],
-        motions: &[BodyMotion],
-        y: &[Vec<f64>],
-        held: &Held,
-        time: Time,
-    ) -> Vec<Vec<f64>> {
-        led.iter()
-            .zip(y)
-            .map(|(n, y)| {
-                let motion = &motions[n.place];
-                let mut load = self.load_on(n.lane, motion, self.moment(n.lane, time.value));
-                for (contact, force) in held.contacts.iter().zip(&held.rest.forces) {
-                    for (k, sign) in [(contact.a, -1.0), (contact.b, 1.0)] {
-                        if k == n.place {
-                            load.add_force_at(&(sign * force), &contact.point, motion);
-                        }
-                    }
-                }
-                let mut dy = vec![0.0; y.len()];
-                n.chart.rate(y, motion, &load, &mut dy);
-                dy
-            })
-            .collect()
-    }
-
-    /// The first instant within a step, from its start [s], at which a slip turns round or another point of a
-    /// pair touches; else its length.
-    fn first_end(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        step: &Step,
-        time: Time,
-    ) -> Result<f64, SimulationError> {
-        let mut segments = Vec::new();
-        for (n, end) in led.iter().zip(&step.ends) {
-            let mut segment = Segment::default();
-            let at = Moment { time: 0.0, since: 0.0 };
-            segment.set_hermite(at, step.h, [&n.y, &end.k0, &end.y1, &end.k1]);
-            segments.push(segment);
-        }
-        let motions_at = |s: f64| {
-            let y = led.iter().zip(&segments).map(|(n, segment)| {
-                let mut y = vec![0.0; n.y.len()];
-                segment.at_offset(s, &mut y);
-                y
-            });
-            moved(cluster, led, &y.collect::<Vec<_>>())
-        };
-        let mut first = step.h;
-
-        // slips
-        let sliding = if step.kind == Kind::Explicit { &part.slides[..] } else { &[] };
-        for (&i, way) in part.contacts.iter().zip(sliding) {
-            let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
-            let along = |motions: &[BodyMotion]| {
-                let contact = anchor.support(&cluster.contacts[i], &self.cluster_bodies(cluster, motions)).contact;
-                way.dot(&contact.slip(motions))
-            };
-            if along(&step.motions) >= 0.0 || along(&cluster.motions) <= 0.0 {
-                continue;
-            }
-            let (mut low, mut high) = (0.0, step.h);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if along(&motions_at(middle)) > 0.0 { low = middle } else { high = middle }
-            }
-            first = first.min(high);
-        }
-
-        // touches: points that come below the surface, by more than those that carry seem to within the step
-        for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
-            let pair = touching.bodies;
-            let [Some(a), Some(b)] = pair.map(|i| cluster.place(i)) else { continue };
-            let carrying = step.carrying.iter().filter(|i| touching.contacts.contains(i));
-            let anchors: Vec<_> = carrying.filter_map(|&i| Some((i, cluster.anchors[i]?))).collect();
-            let below = |motions: &[BodyMotion]| {
-                let poses = [(pair[0], a), (pair[1], b)].map(|(i, place)| self.pose_of(i, &motions[place]));
-                let gap = self.closest_at(pair, poses, time.value)?.signed_distance;
-                let sunk = |(i, anchor): &(usize, Anchor)| {
-                    let contact = &cluster.contacts[*i];
-                    cluster.gaps[*i] - anchor.gap(&motions[contact.a], &motions[contact.b])
-                };
-                Ok::<f64, SimulationError>(-gap - anchors.iter().map(sunk).fold(0.0, f64::max))
-            };
-            let level = BELOW * self.eps(pair[0], pair[1]);
-            let end = if first < step.h { motions_at(first) } else { step.motions.clone() };
-            if below(&end)? <= level {
-                continue;
-            }
-            let (mut low, mut high) = (0.0, first);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if below(&motions_at(middle))? <= level {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            first = low;
-        }
-        Ok(first)
-    }
-}
-
-/// How far below the surface a point must come to count as touching, in ε [-].
-const BELOW: f64 = 2.0;
-
-/// How a step is taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    /// By the method of Runge and Kutta.
-    Explicit,
-    /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end,
-    /// whose direction is stiff where the slip is slow.
-    Implicit,
-}
-
-/// How fast the contacts of a part slide, by what friction changes in a step: a direction that it can turn
-/// round is stiff.
-enum Slips {
-    /// Faster, or about to stop.
-    Fast,
-    /// Slower, and ever more so; in a step of this length [s] it is not.
-    Dying(f64),
-    /// Slower, and about to be faster.
-    Beginning,
-}
-
-/// A body that is led, in the numbers of its flight.
-struct Numbers {
-    place: usize,
-    lane: usize,
-    chart: Chart,
-    y: Vec<f64>,
-}
-
-/// The end of a step of one body, with the rates at both ends.
-struct End {
-    k0: Vec<f64>,
-    y1: Vec<f64>,
-    k1: Vec<f64>,
-}
-
-/// A step of a part.
-struct Step {
-    h: f64,
-    kind: Kind,
-    ends: Vec<End>,
-    /// Motions of the cluster's bodies at its end.
-    motions: Vec<BodyMotion>,
-    /// Heat of friction [J], and its power at both ends [W].
-    heat: f64,
-    power: [f64; 2],
-    /// The contacts that carry at its end, as places in the cluster's list.
-    carrying: Vec<usize>,
 }
 
 impl Held {
     /// Power of friction turned into heat [W].
-    fn heat(&self) -> f64 {
+    pub(super) fn heat(&self) -> f64 {
         -self.rest.forces.iter().zip(&self.slips).map(|(f, u)| f.dot(u)).sum::<f64>()
     }
-}
-
-/// The motions of a cluster's bodies, those that are led by their numbers.
-fn moved(cluster: &Cluster, led: &[Numbers], y: &[Vec<f64>]) -> Vec<BodyMotion> {
-    let mut motions = cluster.motions.clone();
-    for (n, y) in led.iter().zip(y) {
-        n.chart.decode(y, &mut motions[n.place]);
-    }
-    motions
 }
 
 /// Moves a body by small displacements.
@@ -869,111 +315,14 @@ pub(super) fn shift_by(motion: &mut BodyMotion, shift: &Vector3, turn: &Vector3)
 }
 
 /// The part of a vector across a unit normal.
-fn across(v: &Vector3, n: &Vector3) -> Vector3 {
+pub(super) fn across(v: &Vector3, n: &Vector3) -> Vector3 {
     v - n.dot(v) * n
 }
 
 /// A normal and two tangents.
-fn tangents(n: &Vector3) -> [Vector3; 3] {
+pub(super) fn tangents(n: &Vector3) -> [Vector3; 3] {
     let mut axis = Vector3::zeros();
     axis[n.iamin()] = 1.0;
     let first = n.cross(&axis).normalize();
     [*n, first, n.cross(&first)]
-}
-
-/// The flight of a lane whose steps are taken together with those of other bodies.
-#[derive(Debug)]
-pub(super) struct Led {
-    charts: Vec<Chart>,
-    front: Front<Vec<f64>>,
-    segment: Segment,
-    counts: Counts,
-}
-
-impl Led {
-    /// A flight that stands at `t` [s] with these motions.
-    pub(super) fn new(charts: Vec<Chart>, t: Time, motions: &[BodyMotion]) -> Self {
-        let mut y = vec![0.0; charts.iter().map(Chart::dimension).sum()];
-        let mut at = 0;
-        for (chart, motion) in charts.iter().zip(motions) {
-            chart.encode(&motion.state(), &mut y[at..at + chart.dimension()]);
-            at += chart.dimension();
-        }
-        let rest = vec![0.0; y.len()];
-        let front = Front { time: t, since: t.value, y, rest };
-        Self { charts, front, segment: Segment::default(), counts: Counts::default() }
-    }
-}
-
-impl Flight for Led {
-    fn front(&self) -> f64 {
-        self.front.time.value
-    }
-
-    /// Never asked for: its steps are taken by [`Simulation::lead`].
-    fn advance(&mut self, limit: f64) -> Result<(), FlightError> {
-        Err(FlightError::StepTooShort(limit - self.front.time.value))
-    }
-
-    fn interpolate(&mut self) -> Result<(), FlightError> {
-        Ok(())
-    }
-
-    fn segment(&self) -> &Segment {
-        &self.segment
-    }
-
-    fn at(&self, t: f64, motions: &mut [BodyMotion]) {
-        if self.segment.dimension == 0 || t >= self.front.time.value {
-            return decode(&self.charts, &self.front.y, motions);
-        }
-        self.at_offset(t - self.segment.start, motions);
-    }
-
-    fn at_offset(&self, offset: f64, motions: &mut [BodyMotion]) {
-        let mut y = vec![0.0; self.front.y.len()];
-        self.segment.at_offset(offset, &mut y);
-        decode(&self.charts, &y, motions);
-    }
-
-    fn cut(&mut self, offset: f64) {
-        let start = Time::new(self.segment.start);
-        self.segment.at_offset(offset, &mut self.front.y);
-        self.front.time = start + offset;
-        self.segment.end = self.front.time.value;
-    }
-
-    fn set_clock(&mut self, time: Time, since: f64) {
-        (self.front.time, self.front.since) = (time, since);
-    }
-
-    fn pass_switch(&mut self) -> Result<(), FlightError> {
-        self.front.since = self.front.time.value;
-        Ok(())
-    }
-
-    fn counts(&self) -> &Counts {
-        &self.counts
-    }
-
-    fn clock(&self) -> (Time, f64) {
-        (self.front.time, self.front.since)
-    }
-
-    fn saved_front(&self) -> Front<Vec<f64>> {
-        self.front.clone()
-    }
-
-    fn resume(&mut self, front: &Front<Vec<f64>>, segment: Segment, counts: Counts) {
-        self.front = front.clone();
-        self.segment = segment;
-        self.counts = counts;
-    }
-}
-
-impl Lane {
-    /// Whether its steps are taken together with those of other bodies.
-    pub(super) fn is_led(&self) -> bool {
-        self.led.is_some()
-    }
 }

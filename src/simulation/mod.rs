@@ -27,6 +27,8 @@ mod cluster;
 pub(crate) mod estimate;
 mod events;
 mod lasting;
+mod lead;
+mod led;
 mod near;
 mod observe;
 mod path;

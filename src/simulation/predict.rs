@@ -5,8 +5,8 @@ use std::fmt::Write;
 use super::run::Pace;
 use crate::effect::AnyEffect;
 use crate::integrator::{Control, Method};
-use crate::plan::Plan;
 use crate::plan::cost::{BodyKind, CostTable};
+use crate::plan::{Binding, Plan};
 use crate::scene::{Record, Span};
 use crate::text::short;
 
@@ -28,14 +28,15 @@ const PROBE_LEAST: (u32, f64) = (16, 1.0 / 64.0);
 
 impl Plan {
     /// What a run over a span takes by these costs, if its first try keeps the tolerance. Where the steps follow the
-    /// error, a few are taken to see how long they are. None where a function of the user has its own price, and
-    /// where a step breaks off.
+    /// error, a few are taken to see how long they are. None where a function of the user has its own price,
+    /// where contacts cannot be foreseen, and where a step breaks off.
     pub fn predict(&self, span: impl Into<Span>, costs: &CostTable) -> Option<Prediction> {
         let span = span.into();
         let options = self.options();
         let mut prediction = Prediction { steps: 0.0, run: 0.0, estimate: 0.0 };
         for (index, group) in self.groups().iter().enumerate() {
-            if group.bindings.iter().any(|binding| matches!(binding.effect.as_ref(), AnyEffect::User(_))) {
+            let calls_user = |binding: &Binding| matches!(binding.effect.as_ref(), AnyEffect::User(_));
+            if group.meets || group.bindings.iter().any(calls_user) {
                 return None;
             }
             if group.method == Method::Exact {
@@ -97,6 +98,9 @@ impl Plan {
                 short(estimate),
                 costs.machine
             ),
+            None if self.groups().iter().any(|group| group.meets) => {
+                write!(text, "\n  predicted  nothing: contacts are not foreseen")
+            }
             None => write!(text, "\n  predicted  nothing: a function of the user has its own price"),
         };
         text
@@ -108,6 +112,14 @@ mod tests {
     use super::*;
     use crate::catalogue;
     use crate::scene::RunOptions;
+
+    #[test]
+    fn what_bodies_that_meet_will_take_is_not_predicted() {
+        let options = RunOptions { t_span: Some([0.0, 1.0]), ..RunOptions::tolerance(1e-6) };
+        let plan = catalogue::scene("bouncing_die").unwrap().unwrap().compile(&options).unwrap();
+        assert_eq!(plan.predict(0.0..1.0, &CostTable::shipped()), None);
+        assert!(plan.explain_priced(&CostTable::shipped()).ends_with("predicted  nothing: contacts are not foreseen"));
+    }
 
     #[test]
     fn the_steps_predicted_are_those_that_are_taken_within_a_factor_of_two() {

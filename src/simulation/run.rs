@@ -386,7 +386,7 @@ impl Course<'_> {
 
 /// Whether bodies have touched.
 fn has_impacts(run: &Trajectory) -> bool {
-    run.events.iter().any(|event| event.kind != EventKind::User)
+    run.events.iter().any(|event| event.passage.is_none())
 }
 
 /// How many times smaller the error is at half the step, where the method shows its order [-].

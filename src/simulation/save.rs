@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::lasting::{Led, Together};
+use super::lasting::Together;
+use super::led::Led;
 use super::near::{Due, Window};
 use super::{Lane, Simulation};
 use crate::contact::accumulation::Accumulation;

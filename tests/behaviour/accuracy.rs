@@ -154,8 +154,8 @@ fn comparing_by_tolerance_shows_errors_below_it_and_rising_cost() {
     for rows in table.rows.chunks(3) {
         for (row, tolerance) in rows.iter().zip(&tolerances) {
             assert_eq!(row.tolerance, Some(*tolerance));
-            // a run without an estimate promises less than one with it: within a decade of what was asked
-            assert!(row.error.unwrap() < 10.0 * tolerance, "{row:?}");
+            // it is kept, though no estimate says so
+            assert!(row.error.unwrap() < *tolerance, "{row:?}");
             assert!((row.step * row.steps as f64 - 4.0).abs() < 1e-12, "{row:?}");
         }
         assert!(rows.windows(2).all(|pair| pair[1].evaluations > pair[0].evaluations));

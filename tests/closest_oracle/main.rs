@@ -15,6 +15,8 @@
 mod families;
 mod oracle;
 mod parry;
+#[path = "../parry/mod.rs"]
+mod parry_types;
 #[path = "../random/mod.rs"]
 mod random;
 mod regressions;

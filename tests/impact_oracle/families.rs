@@ -1,5 +1,6 @@
 //! Eight families of moving pairs over the time 0..=1 s.
 
+use crate::random::Random;
 use bryla::closest::{Accuracy, closest_features};
 use bryla::impact::{Motion, Moving};
 use bryla::math::{Pose, Quaternion, Vector3, quaternion};
@@ -29,37 +30,14 @@ pub(crate) const FAMILIES: &[Family] = &[
     ("two_rods", two_rods),
 ];
 
-/// Splitmix64 (Steele, Lea and Flood 2014), seeded by a name.
-#[derive(Debug)]
-pub(crate) struct Random(u64);
+/// A sequence of its own for every family.
+pub(crate) fn random(name: &str) -> Random {
+    Random(name.bytes().fold(0xcbf29ce484222325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100000001b3)))
+}
 
 impl Random {
-    pub(crate) fn new(name: &str) -> Self {
-        Self(name.bytes().fold(0xcbf29ce484222325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100000001b3)))
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E3779B97F4A7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58476D1CE4E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D049BB133111EB);
-        z ^ (z >> 31)
-    }
-
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / 9007199254740992.0
-    }
-
     fn decade(&mut self, low: f64, high: f64) -> f64 {
         libm::exp(self.within(libm::log(low), libm::log(high)))
-    }
-
-    fn direction(&mut self) -> Vector3 {
-        loop {
-            let v = Vector3::new(self.within(-1.0, 1.0), self.within(-1.0, 1.0), self.within(-1.0, 1.0));
-            if (0.1..1.0).contains(&v.norm()) {
-                return v / v.norm();
-            }
-        }
     }
 
     fn orientation(&mut self) -> Quaternion {

@@ -16,11 +16,15 @@
 mod families;
 mod oracle;
 mod parry;
+#[path = "../parry/mod.rs"]
+mod parry_types;
+#[path = "../random/mod.rs"]
+mod random;
 
 use std::time::Instant;
 
 use bryla::impact::{Finder, Impact, Outcome, time_of_impact};
-use families::{Case, FAMILIES, Family, Random};
+use families::{Case, FAMILIES, Family, random};
 use oracle::Verdict;
 
 /// Looks of the oracle at one pair before it gives up; of the grazes 1 in 200 takes more, of others none.
@@ -87,7 +91,7 @@ fn judge(name: &str, number: usize, case: &Case, found: &Impact, tally: &mut Tal
 }
 
 fn run((name, family): &Family, pairs: usize, times: bool) -> Tally {
-    let mut random = Random::new(name);
+    let mut random = random(name);
     let mut tally = Tally::default();
     for number in 0..pairs {
         let case = family(&mut random);

@@ -1,9 +1,9 @@
-//! parry3d's nonlinear cast: its types are converted here.
+//! parry3d's nonlinear cast.
 
 use super::families::Case;
+use crate::parry_types::{pose, shape};
 use bryla::impact::{Motion, Moving};
-use bryla::shape::convex_polyhedron::ConvexPolyhedron;
-use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
+use parry3d_f64::math::Vector;
 use parry3d_f64::query::{NonlinearRigidMotion, ShapeCastStatus, cast_shapes_nonlinear};
 use parry3d_f64::shape::ConvexPolyhedron as ParryPolyhedron;
 
@@ -23,27 +23,14 @@ pub(crate) enum Answer {
     Failed,
 }
 
-fn shape(body: &ConvexPolyhedron) -> Option<ParryPolyhedron> {
-    let points: Vec<Vector> = body.vertices().iter().map(|v| Vector::new(v[0], v[1], v[2])).collect();
-    // fans over the faces: its own hull drops vertices of thin bodies
-    let index = |k: usize| u32::try_from(k).unwrap();
-    let triangles: Vec<[u32; 3]> = (0..body.faces().len())
-        .flat_map(|f| {
-            let corners: Vec<usize> = body.face_vertices(f).collect();
-            (2..corners.len())
-                .map(|k| [index(corners[0]), index(corners[k - 1]), index(corners[k])])
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    ParryPolyhedron::from_convex_mesh(points, &triangles)
-}
-
 fn motion(motion: &Motion) -> NonlinearRigidMotion {
-    let pose = motion.at(0.0).pose;
-    let (q, x) = (pose.orientation, pose.position);
-    let pose = ParryPose { rotation: Rotation::from_xyzw(q.i, q.j, q.k, q.w), translation: Vector::new(x.x, x.y, x.z) };
     let vector = |v: &bryla::math::Vector3| Vector::new(v.x, v.y, v.z);
-    NonlinearRigidMotion::new(pose, vector(&motion.center), vector(&motion.velocity), vector(&motion.angular_velocity))
+    NonlinearRigidMotion::new(
+        pose(&motion.at(0.0).pose),
+        vector(&motion.center),
+        vector(&motion.velocity),
+        vector(&motion.angular_velocity),
+    )
 }
 
 impl Pair {
