@@ -2,6 +2,7 @@
 
 use super::Scales;
 use crate::mass::MassProperties;
+use crate::math::series::{Attitude, Node, Tape};
 use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
 use crate::state::Load;
@@ -242,6 +243,25 @@ impl Spin {
         let w = self.inv_moments.component_mul(&momentum);
         put_quaternion(dy, &quaternion::rate_body(&w, &quaternion_at(y)));
         put(&mut dy[4..], &(momentum.cross(&w) + torque));
+    }
+
+    /// The rotation on a tape, its numbers from `at` on: attitude, angular momentum and angular velocity in principal
+    /// axes, and the matrix from these to body axes.
+    pub(super) fn begin_series(&self, at: usize, tape: &mut Tape) -> (Attitude, Node, Node, Matrix3) {
+        let momentum = tape.numbers(at + 4, 3);
+        let w = tape.linear(momentum, Matrix3::from_diagonal(&self.inv_moments));
+        tape.turning(at, w);
+        let axes = self.axes.as_ref().map_or_else(Matrix3::identity, |(_, axes)| *axes);
+        (Attitude::Quaternion(at), momentum, w, axes)
+    }
+
+    /// Euler's equations on a tape: torque in principal axes.
+    pub(super) fn end_series(&self, momentum: Node, torque: Option<Node>, tape: &mut Tape) {
+        let mut rate = tape.gyration(momentum, self.inv_moments);
+        if let Some(torque) = torque {
+            rate = tape.sum(rate, 1.0, torque);
+        }
+        tape.integrate(momentum, rate);
     }
 
     /// Advances the rotation without torque by `h`, principal axes; `rest` takes up what rounding drops.

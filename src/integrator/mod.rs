@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::freedom::{Form, RotationSplit, Scales};
+use crate::math::series::Tape;
 use crate::math::sum::{Time, two_sum};
 use crate::state::{BodyMotion, Moment};
 
@@ -36,6 +37,7 @@ mod split6;
 mod split8;
 mod splitting;
 mod stepper;
+pub(crate) mod taylor;
 mod tsit5;
 
 pub use exact::{ClosedFlight, ClosedMotion};
@@ -205,6 +207,9 @@ pub trait Problem: Debug + Send {
     /// Leaves out the effects at these places of the scene, and no others; whether that is a change.
     fn leave_out(&mut self, effects: &[usize]) -> bool;
 
+    /// The recurrences of the motion's series to this order, as loads are from the moment on.
+    fn tape(&self, at: Moment, order: usize) -> Tape;
+
     /// What a user's function complained about, once.
     fn take_failure(&mut self) -> Option<String>;
 }
@@ -312,35 +317,40 @@ macro_rules! methods {
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         pub enum Method {
             $($(#[$doc])* $variant,)*
+            /// The power series of the motion, of any order, with error control; loads that are series too.
+            Taylor,
             /// The closed form, where there is one: no torque and no force but gravity and linear drag.
             Exact,
         }
 
         impl Method {
             /// Every method, in the order of the list.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Exact];
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Taylor, Self::Exact];
 
             /// The name that files, reports and Python use.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => stringify!($module),)*
+                    Self::Taylor => "taylor",
                     Self::Exact => "exact",
                 }
             }
 
             /// Order of accuracy: halving the step divides the error by two to this power; 0 for the
-            /// closed form, which has no step.
+            /// closed form, which has no step, and for power series that where no order is asked for.
             pub fn order(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::ORDER,)*
+                    Self::Taylor => taylor::ORDER,
                     Self::Exact => exact::ORDER,
                 }
             }
 
-            /// Evaluations of f in one step; of the implicit method in one iteration.
+            /// Evaluations of f in one step; of the implicit method in one iteration; a power series is one.
             pub fn evaluations(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
+                    Self::Taylor => taylor::EVALUATIONS,
                     Self::Exact => 0,
                 }
             }
@@ -354,6 +364,7 @@ macro_rules! methods {
             pub fn in_body_axes(self) -> bool {
                 match self {
                     $(Self::$variant => $module::BODY_AXES,)*
+                    Self::Taylor => taylor::BODY_AXES,
                     Self::Exact => false,
                 }
             }
@@ -363,7 +374,7 @@ macro_rules! methods {
             pub fn has_short_steps(self) -> bool {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS <= 4 && $module::ERROR_ORDER == 0.0,)*
-                    Self::Exact => false,
+                    Self::Taylor | Self::Exact => false,
                 }
             }
 
@@ -372,12 +383,12 @@ macro_rules! methods {
             pub fn controls_error(self) -> bool {
                 match self {
                     $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
-                    Self::Exact => true,
+                    Self::Taylor | Self::Exact => true,
                 }
             }
 
-            /// The method on a problem; none for the closed form, and none for methods that the problem is
-            /// not written for.
+            /// The method on a problem; none for the closed form and for power series, which are made apart, and
+            /// none for methods that the problem is not written for.
             pub fn integrator<P: Problem + 'static>(
                 self,
                 problem: &P,
@@ -428,6 +439,16 @@ methods! {
     Buss2 => buss2,
     /// Radau IIA, order 5, with error control: implicit, for stiff loads such as strong drag.
     Radau5 => radau5,
+}
+
+/// Power series of this order on a problem.
+pub(crate) fn taylor<P: Problem + 'static>(
+    problem: &P,
+    order: u32,
+    control: Control,
+    projection: bool,
+) -> Box<dyn Integrator<P>> {
+    Box::new(taylor::Taylor::new(order, problem.dimension(), control, projection))
 }
 
 impl Method {

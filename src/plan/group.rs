@@ -1,8 +1,9 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
-use super::Binding;
+use super::{Binding, series};
 use crate::freedom::{Chart, Form, RotationSplit, Scales};
-use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector};
+use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector, taylor};
+use crate::math::series::Tape;
 use crate::state::{BodyMotion, Load, Moment};
 use std::fmt::Debug;
 
@@ -92,6 +93,9 @@ macro_rules! single {
         /// The flight by a method of bodies that start at `t` [s] with the numbers `y`; each kind of group has
         /// a step of its own.
         pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+            if method == Method::Taylor {
+                return expand(bodies, course, t, y);
+            }
             match bodies.charts.as_slice() {
                 $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
                 _ => fly::<Any>(bodies, method, course, t, y),
@@ -126,6 +130,8 @@ pub(super) struct Bodies {
 pub(super) struct Course {
     pub(super) control: Control,
     pub(super) projection: bool,
+    /// Order of power series.
+    pub(super) order: u32,
 }
 
 fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
@@ -133,6 +139,13 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
     debug_assert_eq!(problem.dimension(), y.len());
     let integrator = method.integrator(&problem, course.control, course.projection);
     Box::new(Integration::new(problem, integrator.expect("a method in the axes of the charts"), t, y))
+}
+
+/// The flight by power series: the work is done on a tape, whatever the kind.
+fn expand(bodies: Bodies, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+    let problem = Group::<Any>::new(bodies.charts, bodies.motions, bodies.bindings);
+    let integrator = taylor(&problem, course.order, course.control, course.projection);
+    Box::new(Integration::new(problem, integrator, t, y))
 }
 
 /// Bodies with their coordinates and what acts on them.
@@ -387,6 +400,10 @@ impl<K: Kind> Problem for Group<K> {
             self.off = effects.to_vec();
         }
         changes
+    }
+
+    fn tape(&self, at: Moment, order: usize) -> Tape {
+        series::tape(&self.charts, &self.motions, (&self.constant, &self.bindings, &self.off), at, order)
     }
 
     fn take_failure(&mut self) -> Option<String> {

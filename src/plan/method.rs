@@ -1,6 +1,6 @@
 //! Which method a flight group gets, and the closed form where there is one.
 
-use super::{Binding, FlightGroup, Plan, PlannedBody};
+use super::{Binding, FlightGroup, Plan, PlannedBody, series};
 use crate::effect::AnyEffect;
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom};
@@ -28,6 +28,15 @@ impl FlightGroup {
             }
             (Some(method), _) => (method, "as asked for".to_owned()),
         };
+        let without = self.bindings.iter().find(|binding| !series::has_series(&binding.effect));
+        if let (Method::Taylor, Some(binding)) = (self.method, without) {
+            let reason = format!(
+                "taylor: the load of {} on {} is no power series; leave the method out, or name dop853",
+                binding.effect.name(),
+                bodies[self.members[binding.members[0]]].name
+            );
+            return Err(Error::refused("run: method", reason));
+        }
         let moving = self.bindings.iter().find(|binding| binding.effect.as_effect().depends_on_velocity());
         if let (true, Some(binding)) = (self.method.needs_positional_loads(), moving) {
             let reason = format!(

@@ -12,7 +12,7 @@ use crate::contact::{Material, Response};
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom};
-use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method};
+use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method, taylor};
 use crate::mass::MassProperties;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
@@ -23,6 +23,7 @@ pub mod cost;
 mod explain;
 mod group;
 mod method;
+mod series;
 mod watch;
 
 pub use group::{Any, Group};
@@ -214,6 +215,22 @@ impl Plan {
         self.options.method.or(chosen).unwrap_or(Method::Exact)
     }
 
+    /// Order of the method, of several the least; 0 where all is closed form. That of power series is the one asked
+    /// for, else that which the tolerance calls for.
+    pub fn order(&self) -> u32 {
+        let of = |group: &FlightGroup| match group.method {
+            Method::Taylor => self.series_order(),
+            method => method.order(),
+        };
+        self.groups.iter().filter(|group| group.method != Method::Exact).map(of).min().unwrap_or(0)
+    }
+
+    /// Order of power series.
+    fn series_order(&self) -> u32 {
+        let by_tolerance = || self.tolerance().map(taylor::order_for);
+        self.options.order.or_else(by_tolerance).unwrap_or(Method::Taylor.order())
+    }
+
     /// How to run it.
     pub fn options(&self) -> &RunOptions {
         &self.options
@@ -309,7 +326,7 @@ impl Plan {
             return Ok(Box::new(ClosedFlight::new(problem, motion, control)));
         }
         let bodies = group::Bodies { charts, motions, bindings: spec.bindings.clone() };
-        let course = group::Course { control, projection: self.options.projection };
+        let course = group::Course { control, projection: self.options.projection, order: self.series_order() };
         Ok(group::flight(bodies, spec.method, course, t, &y))
     }
 

@@ -7,6 +7,7 @@ pub use crate::contact::collision::Law;
 use crate::error::{Error, Result};
 pub use crate::impact::Finder;
 use crate::integrator::Method;
+use crate::integrator::taylor::ORDERS;
 
 /// Start and end of a run [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,6 +104,9 @@ pub struct RunOptions {
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none", deserialize_with = "method_or_auto"))]
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub method: Option<Method>,
+    /// Order of the method `taylor`; that which the tolerance calls for if absent, 12 where the step is given.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub order: Option<u32>,
     /// Length of a step [s].
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub step: Option<f64>,
@@ -138,6 +142,7 @@ impl Default for RunOptions {
             t_span: None,
             tolerance: None,
             method: None,
+            order: None,
             step: None,
             t_eval: None,
             estimate: true,
@@ -178,6 +183,13 @@ impl RunOptions {
     /// A run with this method; give it a step.
     pub fn method(method: Method) -> Self {
         Self { method: Some(method), ..Self::default() }
+    }
+
+    /// Order of the method `taylor`.
+    #[must_use]
+    pub fn order(mut self, order: u32) -> Self {
+        self.order = Some(order);
+        self
     }
 
     /// Length of a step [s].
@@ -282,6 +294,15 @@ impl RunOptions {
         }
         if self.step.is_some() && self.method.is_none() {
             return Err(Error::refused("run", "a step needs a method beside it"));
+        }
+        if let Some(order) = self.order {
+            if self.method != Some(Method::Taylor) {
+                return Err(Error::refused("run", "an order needs the method taylor beside it: others have their own"));
+            }
+            if !ORDERS.contains(&order) {
+                let allowed = format!("from {} to {}", ORDERS.start(), ORDERS.end());
+                return Err(Error::value("run", "order", allowed, order));
+            }
         }
         if let Some(span) = self.t_span {
             self.times(span.into())?;

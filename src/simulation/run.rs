@@ -111,7 +111,7 @@ impl Plan {
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
-                let gain = if has_impacts(&run) { EVENT_GAIN } else { full_gain(self.method()) };
+                let gain = if has_impacts(&run) { EVENT_GAIN } else { full_gain(self.order()) };
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
                 run.report.error_estimate = Some(comparison.within_horizon);
                 run.report.estimated_by = "against a second run with twice the step".into();
@@ -186,7 +186,7 @@ impl Plan {
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
             let gain =
-                if has_impacts(&run) { EVENT_GAIN } else { observed_gain(self.method(), &coarser, &coarse, &run) };
+                if has_impacts(&run) { EVENT_GAIN } else { observed_gain(self.order(), &coarser, &coarse, &run) };
             let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
             run.report.error_estimate = Some(comparison.within_horizon);
             run.report.estimated_by = if comparison.worst.is_finite() {
@@ -195,8 +195,8 @@ impl Plan {
                 "up to the horizon, after which the impacts of a second run differ".into()
             };
             run.report.met = Some(comparison.worst <= tolerance);
-            let next = pace.finer(self.method(), tolerance, comparison.worst);
-            let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
+            let next = pace.finer(self.order(), tolerance, comparison.worst);
+            let steps = run.report.counts.steps as f64 * pace.longer(self.order(), &next);
             let differs = comparison.worst.is_infinite() && has_impacts(&run);
             mismatches += u32::from(differs);
             let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
@@ -390,8 +390,8 @@ fn has_impacts(run: &Trajectory) -> bool {
 }
 
 /// How many times smaller the error is at half the step, where the method shows its order [-].
-fn full_gain(method: Method) -> f64 {
-    libm::pow(2.0, f64::from(method.order()))
+fn full_gain(order: u32) -> f64 {
+    libm::pow(2.0, f64::from(order))
 }
 
 /// How far a gain is trusted: a part of it; and where there is none, as where rounding rules, both runs
@@ -403,10 +403,10 @@ fn trusted(gain: f64) -> f64 {
 /// The gain by which the error of the finest of three runs is told, each with half the steps of the one
 /// before. A load with a kink, such as drag at the turn of a motion, costs the method its order; then the
 /// differences fall more slowly, and less is trusted.
-fn observed_gain(method: Method, coarser: &Trajectory, coarse: &Trajectory, fine: &Trajectory) -> f64 {
+fn observed_gain(order: u32, coarser: &Trajectory, coarse: &Trajectory, fine: &Trajectory) -> f64 {
     let [first, second] = [(coarse, coarser), (fine, coarse)].map(|(a, b)| Comparison::new(a, b, 2.0, 0.0, None).worst);
     let seen = if second > 0.0 { first / second } else { f64::INFINITY };
-    trusted(full_gain(method).min(seen))
+    trusted(full_gain(order).min(seen))
 }
 
 /// How fine the first run of a round is.
@@ -418,7 +418,7 @@ impl Pace {
     /// The first try: steps whose error is a part of the tolerance, or that follow every body's turning.
     pub(super) fn first(plan: &Plan, span: Span, tolerance: f64) -> Self {
         let time = span.end - span.start;
-        let gain = full_gain(plan.method());
+        let gain = full_gain(plan.order());
         let part = if plan.options().estimate { FIRST_LOCAL * trusted(gain) * gain } else { FIRST_LOCAL };
         if !plan.method().controls_error() {
             return Self { control: Control::Step(plan.first_step(time)) };
@@ -438,7 +438,7 @@ impl Pace {
     }
 
     /// What should meet the tolerance, where this pace left an estimate.
-    fn finer(&self, method: Method, tolerance: f64, estimate: f64) -> Self {
+    fn finer(&self, order: u32, tolerance: f64, estimate: f64) -> Self {
         let wanted = if estimate.is_finite() { SAFETY * tolerance / estimate } else { 0.0 };
         let control = match &self.control {
             Control::Error(limits) => {
@@ -446,7 +446,7 @@ impl Pace {
                 Control::Error(Limits { local, ..*limits })
             }
             Control::Step(step) => {
-                Control::Step(step * libm::pow(wanted, 1.0 / f64::from(method.order())).clamp(1.0 / 32.0, 0.5))
+                Control::Step(step * libm::pow(wanted, 1.0 / f64::from(order)).clamp(1.0 / 32.0, 0.5))
             }
             other @ Control::Mesh(_) => other.clone(),
         };
@@ -454,11 +454,9 @@ impl Pace {
     }
 
     /// How many times more steps another pace takes.
-    fn longer(&self, method: Method, other: &Self) -> f64 {
+    fn longer(&self, order: u32, other: &Self) -> f64 {
         match (&self.control, &other.control) {
-            (Control::Error(a), Control::Error(b)) => {
-                libm::pow(a.local / b.local, 1.0 / f64::from(method.order().max(1)))
-            }
+            (Control::Error(a), Control::Error(b)) => libm::pow(a.local / b.local, 1.0 / f64::from(order.max(1))),
             (Control::Step(a), Control::Step(b)) => a / b,
             _ => 1.0,
         }

@@ -15,6 +15,7 @@ mod layers;
 mod order;
 mod promises;
 mod rest;
+mod series;
 mod switching;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};

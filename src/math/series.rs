@@ -1,0 +1,432 @@
+//! Power series of a motion in time, found by recurrences (automatic differentiation; Moore 1966, Interval
+//! Analysis; Jorba, Zou 2005, Exp. Math. 14:99).
+//!
+//! ```text
+//! a(t + s) = Σ a_k s^k        (a b)_k = Σ_j a_j b_{k−j}        a′ = b:  a_{k+1} = b_k/(k + 1)
+//! ```
+//!
+//! A [`Tape`] is a list of such recurrences between vectors, written once. Played order by order from the numbers of
+//! a moment, it gives their series to any order, without differences and without allocating: order N costs some N²
+//! products, so that doubling the digits of a step costs four times as much and makes it longer.
+
+use std::iter::zip;
+
+use crate::math::{Matrix3, Quaternion, Vector3, quaternion};
+
+/// A vector on the tape; a number is one whose components are all that number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Node(usize);
+
+/// A vector and its first components again, so that its cyclic turns are slices of it.
+type Term = [f64; 6];
+
+#[inline(always)]
+fn term(x: f64, y: f64, z: f64) -> Term {
+    [x, y, z, x, y, z]
+}
+
+/// How the terms of a vector follow from those of others.
+#[derive(Debug, Clone, Copy)]
+enum Rule {
+    /// `M a`
+    Linear(usize, Matrix3),
+    /// `α a + β b`
+    Sum([f64; 2], [usize; 2]),
+    /// `a b`, component by component.
+    Product(usize, usize),
+    /// `a·b`, as a number.
+    Dot(usize, usize),
+    /// `a × b`
+    Cross(usize, usize),
+    /// `a × (d ∘ a)`: products of different components of a only.
+    Gyration(usize, Vector3),
+    /// `a^α` of a number.
+    Power(usize, f64),
+}
+
+/// A quaternion that turns with an angular velocity in its own axes, `q′ = ½ q [0, ω]`.
+#[derive(Debug)]
+struct Turning {
+    /// Where it stands among the numbers.
+    at: usize,
+    rate: usize,
+    /// Every term, and what ω₁, ω₂ and ω₃ multiply in it: `(−x, w, z, −y)`, `(−y, −z, w, x)`, `(−z, y, −x, w)`.
+    terms: Vec<[[f64; 4]; 4]>,
+}
+
+/// What body axes follow from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Attitude {
+    /// A quaternion among the numbers, from there on; its length does not matter.
+    Quaternion(usize),
+    /// An angle among the numbers, about a unit axis of the world, from a rotation at angle 0.
+    Angle(usize, Vector3, Matrix3),
+}
+
+/// Where the series of a vector begins.
+#[derive(Debug, Clone, Copy)]
+enum Start {
+    /// With so many of the numbers, from a place on; the other components are 0.
+    Numbers(usize, usize),
+    /// With one of the numbers, as a number.
+    Number(usize),
+    /// With a vector of the world seen from a body.
+    Seen(Vector3, Attitude),
+    /// With `(sin, cos, 0)` of `w t + φ`.
+    Wave(f64, f64),
+}
+
+/// One of the numbers whose series are asked for.
+#[derive(Debug, Clone, Copy)]
+enum Output {
+    Vector(usize, usize),
+    Quaternion(usize, usize),
+}
+
+/// A list of recurrences.
+#[derive(Debug)]
+pub struct Tape {
+    order: usize,
+    /// The terms of every vector, order by order: `order + 1` places each.
+    terms: Vec<Term>,
+    /// The value of vectors that do not change.
+    constants: Vec<Option<Vector3>>,
+    rules: Vec<(usize, Rule)>,
+    /// Vectors and their rates.
+    integrals: Vec<(usize, usize)>,
+    turnings: Vec<Turning>,
+    starts: Vec<(usize, Start)>,
+    outputs: Vec<Output>,
+}
+
+/// Writing.
+impl Tape {
+    /// An empty tape for series to this order.
+    pub(crate) fn new(order: usize) -> Self {
+        Self {
+            order,
+            terms: Vec::new(),
+            constants: Vec::new(),
+            rules: Vec::new(),
+            integrals: Vec::new(),
+            turnings: Vec::new(),
+            starts: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+
+    fn node(&mut self, constant: Option<Vector3>) -> usize {
+        self.terms.resize(self.terms.len() + self.order + 1, term(0.0, 0.0, 0.0));
+        self.constants.push(constant);
+        self.constants.len() - 1
+    }
+
+    fn rule(&mut self, rule: Rule) -> Node {
+        let node = self.node(None);
+        self.rules.push((node, rule));
+        Node(node)
+    }
+
+    fn start(&mut self, start: Start) -> Node {
+        let node = self.node(None);
+        self.starts.push((node, start));
+        Node(node)
+    }
+
+    /// The value of a vector that does not change.
+    pub(crate) fn value(&self, node: Node) -> Option<Vector3> {
+        self.constants[node.0]
+    }
+
+    /// A vector that does not change.
+    pub(crate) fn constant(&mut self, v: Vector3) -> Node {
+        let node = self.node(Some(v));
+        self.terms[node * (self.order + 1)] = term(v.x, v.y, v.z);
+        Node(node)
+    }
+
+    /// `n` of the numbers from `at` on, as a vector whose rate is still to be said; they are asked for.
+    pub(crate) fn numbers(&mut self, at: usize, n: usize) -> Node {
+        let node = self.start(Start::Numbers(at, n));
+        self.ask(at, (0..n).map(|i| Output::Vector(node.0, i)));
+        node
+    }
+
+    /// The number at `at`, whose rate is still to be said; it is asked for.
+    pub(crate) fn number(&mut self, at: usize) -> Node {
+        let node = self.start(Start::Number(at));
+        self.ask(at, std::iter::once(Output::Vector(node.0, 0)));
+        node
+    }
+
+    /// The quaternion at `at`, which turns with `rate` in its own axes; it is asked for.
+    pub(crate) fn turning(&mut self, at: usize, rate: Node) {
+        let turning = self.turnings.len();
+        self.turnings.push(Turning { at, rate: rate.0, terms: vec![[[0.0; 4]; 4]; self.order + 1] });
+        self.ask(at, (0..4).map(|i| Output::Quaternion(turning, i)));
+    }
+
+    fn ask(&mut self, at: usize, outputs: impl Iterator<Item = Output>) {
+        for (i, output) in outputs.enumerate() {
+            if self.outputs.len() <= at + i {
+                self.outputs.resize(at + i + 1, output);
+            }
+            self.outputs[at + i] = output;
+        }
+    }
+
+    /// A vector of the world seen from a body of this attitude that turns with `rate`: `a′ = a × ω`.
+    pub(crate) fn seen(&mut self, v: Vector3, attitude: Attitude, rate: Node) -> Node {
+        let node = self.start(Start::Seen(v, attitude));
+        let turned = self.cross(node, rate);
+        self.integrate(node, turned);
+        node
+    }
+
+    /// `sin(w t + φ)`
+    pub(crate) fn wave(&mut self, w: f64, phase: f64) -> Node {
+        let both = self.start(Start::Wave(w, phase));
+        let rate = self.linear(both, Matrix3::new(0.0, w, 0.0, -w, 0.0, 0.0, 0.0, 0.0, 0.0));
+        self.integrate(both, rate);
+        self.component(both, 0)
+    }
+
+    /// Says how a vector changes.
+    pub(crate) fn integrate(&mut self, node: Node, rate: Node) {
+        self.integrals.push((node.0, rate.0));
+    }
+
+    /// `M a`
+    pub(crate) fn linear(&mut self, a: Node, m: Matrix3) -> Node {
+        match self.value(a) {
+            Some(v) => self.constant(m * v),
+            None => self.rule(Rule::Linear(a.0, m)),
+        }
+    }
+
+    /// `α a`
+    pub(crate) fn scaled(&mut self, alpha: f64, a: Node) -> Node {
+        self.linear(a, Matrix3::from_diagonal_element(alpha))
+    }
+
+    /// One of the components as a number.
+    pub(crate) fn component(&mut self, a: Node, i: usize) -> Node {
+        let mut m = Matrix3::zeros();
+        m.set_column(i, &Vector3::repeat(1.0));
+        self.linear(a, m)
+    }
+
+    /// A number along a vector that does not change, `v s`.
+    pub(crate) fn along(&mut self, v: &Vector3, s: Node) -> Node {
+        self.linear(s, Matrix3::from_diagonal(v))
+    }
+
+    /// `a + β b`
+    pub(crate) fn sum(&mut self, a: Node, beta: f64, b: Node) -> Node {
+        match (self.value(a), self.value(b)) {
+            (Some(v), Some(w)) => self.constant(v + beta * w),
+            _ => self.rule(Rule::Sum([1.0, beta], [a.0, b.0])),
+        }
+    }
+
+    /// `s a` of a number and a vector, or of two vectors component by component.
+    pub(crate) fn product(&mut self, s: Node, a: Node) -> Node {
+        match (self.value(s), self.value(a)) {
+            (Some(v), _) => self.linear(a, Matrix3::from_diagonal(&v)),
+            (_, Some(v)) => self.linear(s, Matrix3::from_diagonal(&v)),
+            _ => self.rule(Rule::Product(s.0, a.0)),
+        }
+    }
+
+    /// `a·b`
+    pub(crate) fn dot(&mut self, a: Node, b: Node) -> Node {
+        let along = |v: Vector3| Matrix3::from_rows(&[v.transpose(); 3]);
+        match (self.value(a), self.value(b)) {
+            (Some(v), _) => self.linear(b, along(v)),
+            (_, Some(v)) => self.linear(a, along(v)),
+            _ => self.rule(Rule::Dot(a.0, b.0)),
+        }
+    }
+
+    /// `a × b`
+    pub(crate) fn cross(&mut self, a: Node, b: Node) -> Node {
+        match (self.value(a), self.value(b)) {
+            (Some(v), _) => self.linear(b, v.cross_matrix()),
+            (_, Some(v)) => self.linear(a, -v.cross_matrix()),
+            _ => self.rule(Rule::Cross(a.0, b.0)),
+        }
+    }
+
+    /// `a × (d ∘ a)`
+    pub(crate) fn gyration(&mut self, a: Node, d: Vector3) -> Node {
+        self.rule(Rule::Gyration(a.0, Vector3::new(d.z - d.y, d.x - d.z, d.y - d.x)))
+    }
+
+    /// `a^α` of a number that is positive.
+    pub(crate) fn power(&mut self, a: Node, alpha: f64) -> Node {
+        self.rule(Rule::Power(a.0, alpha))
+    }
+}
+
+/// Playing.
+impl Tape {
+    /// Finds the series of all numbers from their values `y` at the time `t` [s].
+    pub(crate) fn play(&mut self, t: f64, y: &[f64]) {
+        let stride = self.order + 1;
+        for &(node, start) in &self.starts {
+            self.terms[node * stride] = start.at(t, y);
+        }
+        for turning in &mut self.turnings {
+            let at = turning.at;
+            turning.terms[0] = with_turns([y[at], y[at + 1], y[at + 2], y[at + 3]]);
+        }
+        for k in 0..self.order {
+            for &(node, rule) in &self.rules {
+                self.terms[node * stride + k] = rule.term(&self.terms, stride, (node, k));
+            }
+            let part = 1.0 / (k + 1) as f64;
+            for &(node, rate) in &self.integrals {
+                let [x, y, z, ..] = self.terms[rate * stride + k];
+                self.terms[node * stride + k + 1] = term(part * x, part * y, part * z);
+            }
+            for turning in &mut self.turnings {
+                let rates = &self.terms[turning.rate * stride..][..=k];
+                turning.terms[k + 1] = with_turns(turned(&turning.terms[..=k], rates).map(|x| 0.5 * part * x));
+            }
+        }
+    }
+
+    /// Writes the terms of order `k` of all numbers.
+    pub(crate) fn read(&self, k: usize, terms: &mut [f64]) {
+        for (c, output) in zip(terms, &self.outputs) {
+            *c = match *output {
+                Output::Vector(node, i) => self.terms[node * (self.order + 1) + k][i],
+                Output::Quaternion(turning, i) => self.turnings[turning].terms[k][0][i],
+            };
+        }
+    }
+}
+
+impl Start {
+    fn at(&self, t: f64, y: &[f64]) -> Term {
+        match *self {
+            Self::Numbers(at, n) => {
+                let part = |i: usize| if i < n { y[at + i] } else { 0.0 };
+                term(part(0), part(1), part(2))
+            }
+            Self::Number(at) => [y[at]; 6],
+            Self::Seen(v, attitude) => {
+                let v = attitude.see(y, &v);
+                term(v.x, v.y, v.z)
+            }
+            Self::Wave(w, phase) => {
+                let (sin, cos) = libm::sincos(w * t + phase);
+                term(sin, cos, 0.0)
+            }
+        }
+    }
+}
+
+impl Attitude {
+    /// A vector of the world, seen from the body.
+    fn see(&self, y: &[f64], v: &Vector3) -> Vector3 {
+        match *self {
+            Self::Quaternion(at) => {
+                let (scaled, n) =
+                    quaternion::to_scaled_matrix(&Quaternion::new(y[at], y[at + 1], y[at + 2], y[at + 3]));
+                scaled.tr_mul(v) / n
+            }
+            Self::Angle(at, axis, start) => {
+                let turn = quaternion::from_axis_angle(&axis, -y[at]);
+                start.tr_mul(&quaternion::rotate(&turn, v))
+            }
+        }
+    }
+}
+
+impl Rule {
+    /// The term of order `k`.
+    #[inline(always)]
+    fn term(&self, terms: &[Term], stride: usize, (own, k): (usize, usize)) -> Term {
+        let series = |node: usize| &terms[node * stride..][..=k];
+        match *self {
+            Self::Linear(a, ref m) => {
+                let [x, y, z, ..] = terms[a * stride + k];
+                let row = |i: usize| m[(i, 0)] * x + m[(i, 1)] * y + m[(i, 2)] * z;
+                term(row(0), row(1), row(2))
+            }
+            Self::Sum([alpha, beta], [a, b]) => {
+                let (a, b) = (&terms[a * stride + k], &terms[b * stride + k]);
+                std::array::from_fn(|i| alpha * a[i] + beta * b[i])
+            }
+            Self::Product(a, b) => {
+                let [x, y, z, _] = products(series(a), series(b));
+                term(x, y, z)
+            }
+            Self::Dot(a, b) => {
+                let [x, y, z, _] = products(series(a), series(b));
+                [x + y + z; 6]
+            }
+            Self::Cross(a, b) => {
+                let mut sum = [0.0; 4];
+                for (a, b) in zip(series(a), series(b).iter().rev()) {
+                    for i in 0..4 {
+                        sum[i] += a[i + 1] * b[i + 2] - a[i + 2] * b[i + 1];
+                    }
+                }
+                term(sum[0], sum[1], sum[2])
+            }
+            Self::Gyration(a, ref d) => {
+                let mut sum = [0.0; 4];
+                for (a, b) in zip(series(a), series(a).iter().rev()) {
+                    for i in 0..4 {
+                        sum[i] += a[i + 1] * b[i + 2];
+                    }
+                }
+                term(d.x * sum[0], d.y * sum[1], d.z * sum[2])
+            }
+            Self::Power(a, alpha) => {
+                let (base, power) = (series(a), series(own));
+                if k == 0 {
+                    return [libm::pow(base[0][0], alpha); 6];
+                }
+                // p = aᵅ:  a p′ = α a′ p
+                let mut sum = 0.0;
+                for j in 1..=k {
+                    sum += (alpha * j as f64 - (k - j) as f64) * base[j][0] * power[k - j][0];
+                }
+                [sum / (k as f64 * base[0][0]); 6]
+            }
+        }
+    }
+}
+
+/// `Σ_j a_j b_{k−j}`, component by component.
+#[inline(always)]
+fn products(a: &[Term], b: &[Term]) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for (a, b) in zip(a, b.iter().rev()) {
+        for i in 0..4 {
+            sum[i] += a[i] * b[i];
+        }
+    }
+    sum
+}
+
+/// A quaternion, and what the components of an angular velocity multiply in `q [0, ω]`.
+#[inline(always)]
+fn with_turns([w, x, y, z]: [f64; 4]) -> [[f64; 4]; 4] {
+    [[w, x, y, z], [-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]]
+}
+
+/// `(q [0, ω])_k`
+#[inline(always)]
+fn turned(q: &[[[f64; 4]; 4]], rates: &[Term]) -> [f64; 4] {
+    let mut sum = [0.0; 4];
+    for ([_, a, b, c], w) in zip(q, rates.iter().rev()) {
+        for i in 0..4 {
+            sum[i] += (a[i] * w[0] + b[i] * w[1]) + c[i] * w[2];
+        }
+    }
+    sum
+}
