@@ -99,6 +99,10 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
     for (name, scene) in [("free", free()), ("driven", driven()), ("top", top())] {
         // closed forms have no step
         for &method in Method::ALL.iter().filter(|method| method.order() > 0) {
+            // `dmv` is for bodies that no torque acts on
+            if method == Method::Dmv && name != "free" {
+                continue;
+            }
             let slope = measured_order(&scene, method, &RunOptions::default().record(Record::End));
             let order = f64::from(method.order());
             // of high orders only two halvings lie between the first step that resolves the turning and rounding

@@ -37,6 +37,7 @@ _Method: TypeAlias = Literal[
     "buss2",
     "radau5",
     "taylor",
+    "dmv",
     "exact",
 ]
 _Response: TypeAlias = Literal["bounce", "stick"]
@@ -1371,7 +1372,8 @@ class Scene:
         method : str, optional
             Method of integration, one of METHODS; "auto" (default) lets the plan choose.
         order : int, optional
-            Order of the method "taylor"; by default that which the tolerance calls for, 12 where the step is given.
+            Order of the methods "taylor" (by default that which the tolerance calls for, 12 where the step is given)
+            and "dmv" (10).
         step : float, optional
             Length of a step [s].
         t_eval : array of float, optional

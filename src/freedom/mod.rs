@@ -19,6 +19,7 @@ use crate::state::{BodyMotion, BodyState, Load};
 
 mod axle;
 mod free;
+mod moser_veselov;
 mod pivot;
 mod planar;
 pub(crate) mod spin;

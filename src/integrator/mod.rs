@@ -21,6 +21,7 @@ use crate::state::{BodyMotion, Moment};
 mod axes2;
 mod buss2;
 mod cf4;
+pub(crate) mod dmv;
 mod dop853;
 mod euler;
 pub(crate) mod exact;
@@ -319,29 +320,33 @@ macro_rules! methods {
             $($(#[$doc])* $variant,)*
             /// The power series of the motion, of any order, with error control; loads that are series too.
             Taylor,
+            /// The preprocessed discrete Moser–Veselov method, order 4 to 10: keeps |L| and energy where no torque acts.
+            Dmv,
             /// The closed form, where there is one: no torque and no force but gravity and linear drag.
             Exact,
         }
 
         impl Method {
             /// Every method, in the order of the list.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Taylor, Self::Exact];
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Taylor, Self::Dmv, Self::Exact];
 
             /// The name that files, reports and Python use.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => stringify!($module),)*
                     Self::Taylor => "taylor",
+                    Self::Dmv => "dmv",
                     Self::Exact => "exact",
                 }
             }
 
             /// Order of accuracy: halving the step divides the error by two to this power; 0 for the
-            /// closed form, which has no step, and for power series that where no order is asked for.
+            /// closed form, which has no step, and for power series and `Dmv` that where none is asked for.
             pub fn order(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::ORDER,)*
                     Self::Taylor => taylor::ORDER,
+                    Self::Dmv => dmv::ORDER,
                     Self::Exact => exact::ORDER,
                 }
             }
@@ -351,6 +356,7 @@ macro_rules! methods {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
                     Self::Taylor => taylor::EVALUATIONS,
+                    Self::Dmv => dmv::EVALUATIONS,
                     Self::Exact => 0,
                 }
             }
@@ -365,6 +371,7 @@ macro_rules! methods {
                 match self {
                     $(Self::$variant => $module::BODY_AXES,)*
                     Self::Taylor => taylor::BODY_AXES,
+                    Self::Dmv => dmv::BODY_AXES,
                     Self::Exact => false,
                 }
             }
@@ -374,7 +381,7 @@ macro_rules! methods {
             pub fn has_short_steps(self) -> bool {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS <= 4 && $module::ERROR_ORDER == 0.0,)*
-                    Self::Taylor | Self::Exact => false,
+                    Self::Taylor | Self::Dmv | Self::Exact => false,
                 }
             }
 
@@ -383,6 +390,7 @@ macro_rules! methods {
             pub fn controls_error(self) -> bool {
                 match self {
                     $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
+                    Self::Dmv => false,
                     Self::Taylor | Self::Exact => true,
                 }
             }
@@ -441,17 +449,38 @@ methods! {
     Radau5 => radau5,
 }
 
-/// Power series of this order on a problem.
-pub(crate) fn taylor<P: Problem + 'static>(
+/// The methods whose order can be asked for, on a problem: their work does not grow less where its kind is known.
+pub(crate) fn of_order<P: Problem + 'static>(
+    method: Method,
     problem: &P,
     order: u32,
     control: Control,
     projection: bool,
-) -> Box<dyn Integrator<P>> {
-    Box::new(taylor::Taylor::new(order, problem.dimension(), control, projection))
+) -> Option<Box<dyn Integrator<P>>> {
+    let n = problem.dimension();
+    match method {
+        Method::Taylor => Some(Box::new(taylor::Taylor::new(order, n, control, projection))),
+        Method::Dmv => {
+            let kernel = dmv::Kernel::of_order(n, order);
+            Some(Box::new(stepper::Stepper::with(kernel, n, control, projection)))
+        }
+        _ => None,
+    }
 }
 
 impl Method {
+    /// The orders that can be asked for, in words, and whether one of them was.
+    pub(crate) fn allows_order(self, order: u32) -> Option<(String, bool)> {
+        match self {
+            Self::Taylor => {
+                let (least, most) = (taylor::ORDERS.start(), taylor::ORDERS.end());
+                Some((format!("from {least} to {most}"), taylor::ORDERS.contains(&order)))
+            }
+            Self::Dmv => Some(("2, 4, 6, 8 or 10".to_owned(), dmv::ORDERS.contains(&order))),
+            _ => None,
+        }
+    }
+
     /// The form in which the method integrates orientation, for the form of orientation asked for.
     pub(crate) fn form(self, matrix: bool) -> Form {
         match (self.in_body_axes(), matrix && self != Self::Exact) {

@@ -71,11 +71,15 @@ pub(super) fn cut(time: Time, step: f64, limit: f64) -> (f64, Time) {
 
 impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
     pub(super) fn new(n: usize, control: Control, projection: bool) -> Self {
+        Self::with(K::new(n), n, control, projection)
+    }
+
+    pub(super) fn with(kernel: K, n: usize, control: Control, projection: bool) -> Self {
         let zeros = || P::Y::zeros(n);
         Self {
             control,
             projection,
-            kernel: K::new(n),
+            kernel,
             at: Moment { time: 0.0, since: 0.0 },
             began: Time::default(),
             h: 0.0,

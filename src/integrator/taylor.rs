@@ -37,13 +37,15 @@ pub(super) struct Taylor<P: Problem> {
     order: usize,
     control: Control,
     projection: bool,
-    /// The recurrences, and the interval without switches whose loads they know.
-    tape: Option<(Tape, f64)>,
-    /// The last step: its start, its length, and its series c₀ … c_N.
+    /// The recurrences, played from the start of the last step, and the interval without switches whose loads they
+    /// know; not a number where they know none.
+    tape: Tape,
+    since: f64,
+    /// The last step: its start and its length.
     at: Moment,
     began: Time,
     h: f64,
-    terms: Vec<P::Y>,
+    terms: P::Y,
     increment: P::Y,
 }
 
@@ -54,11 +56,12 @@ impl<P: Problem> Taylor<P> {
             order,
             control,
             projection,
-            tape: None,
+            tape: Tape::new(order),
+            since: f64::NAN,
             at: Moment { time: 0.0, since: 0.0 },
             began: Time::default(),
             h: 0.0,
-            terms: vec![P::Y::zeros(n); order + 1],
+            terms: P::Y::zeros(n),
             increment: P::Y::zeros(n),
         }
     }
@@ -66,24 +69,24 @@ impl<P: Problem> Taylor<P> {
     /// Finds the series at the front.
     fn expand(&mut self, problem: &P, front: &Front<P::Y>) {
         self.at = front.moment();
-        if self.tape.as_ref().is_none_or(|(_, since)| *since != front.since) {
-            self.tape = Some((problem.tape(self.at, self.order), front.since));
+        if self.since != front.since {
+            self.tape = problem.tape(self.at, self.order);
+            self.since = front.since;
         }
-        if let Some((tape, _)) = &mut self.tape {
-            tape.play(self.at.time, front.y.as_ref());
-            for (k, terms) in self.terms.iter_mut().enumerate() {
-                tape.read(k, terms.as_mut());
-            }
-        }
+        self.tape.play(self.at.time, front.y.as_ref());
     }
 
     /// The longest step whose last two terms are as small as the limits say [s].
-    fn longest(&self, problem: &P, y: &P::Y, limits: &Limits) -> f64 {
-        let length = |k: usize| {
-            let size = problem.error_size(y, y, &self.terms[k], &limits.scales);
-            if size > 0.0 { libm::pow(limits.local / size, 1.0 / k as f64) } else { f64::INFINITY }
-        };
-        length(self.order).min(length(self.order - 1)).min(limits.longest)
+    fn longest(&mut self, problem: &P, y: &P::Y, limits: &Limits) -> f64 {
+        let mut longest = limits.longest;
+        for k in [self.order - 1, self.order] {
+            self.tape.read(k, self.terms.as_mut());
+            let size = problem.error_size(y, y, &self.terms, &limits.scales);
+            if size > 0.0 {
+                longest = longest.min(libm::pow(limits.local / size, 1.0 / k as f64));
+            }
+        }
+        longest
     }
 }
 
@@ -106,7 +109,8 @@ impl<P: Problem> Integrator<P> for Taylor<P> {
                 Control::Step(step) => *step,
                 Control::Mesh(mesh) => front.time.until(mesh.end_after(front.time.value)),
                 Control::Error(limits) => {
-                    let longest = self.longest(problem, &front.y, limits);
+                    let limits = *limits;
+                    let longest = self.longest(problem, &front.y, &limits);
                     if longest <= SHORTEST * front.time.value.abs() {
                         return Err(FlightError::StepTooShort(longest));
                     }
@@ -115,15 +119,8 @@ impl<P: Problem> Integrator<P> for Taylor<P> {
                 }
             };
             let (h, end) = cut(front.time, step, limit);
-
-            // y₁ − y₀ = h (c₁ + h (c₂ + …))
             self.h = h;
-            self.increment.as_mut().fill(0.0);
-            for terms in self.terms[1..].iter().rev() {
-                for (dy, c) in self.increment.as_mut().iter_mut().zip(terms.as_ref()) {
-                    *dy = h * (*dy + c);
-                }
-            }
+            self.tape.change(h, self.increment.as_mut());
             let strayed =
                 if self.projection { problem.project(&front.y, &front.rest, &mut self.increment) } else { 0.0 };
             front.y.add_compensated(&self.increment, &mut front.rest);
@@ -149,15 +146,14 @@ impl<P: Problem> Integrator<P> for Taylor<P> {
         let n = problem.dimension();
         let coefficients = segment.set_span(self.at, self.h, n, self.order + 1);
         let mut scale = 1.0;
-        for (c, terms) in coefficients.chunks_exact_mut(n.max(1)).zip(&self.terms) {
-            for (c, term) in c.iter_mut().zip(terms.as_ref()) {
-                *c = scale * term;
-            }
+        for (k, terms) in coefficients.chunks_exact_mut(n.max(1)).enumerate() {
+            self.tape.read(k, terms);
+            terms.iter_mut().for_each(|c| *c *= scale);
             scale *= self.h;
         }
     }
 
     fn restart(&mut self) {
-        self.tape = None;
+        self.since = f64::NAN;
     }
 }

@@ -17,12 +17,23 @@ use crate::math::{Matrix3, Quaternion, Vector3, quaternion};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Node(usize);
 
-/// A vector and its first components again, so that its cyclic turns are slices of it.
-type Term = [f64; 6];
+/// A vector `(x, y, z)`, held as its two cyclic turns `(y, z, x)` and `(z, x, y)`: what cross products need, in one line
+/// of the cache.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
+struct Term([f64; 8]);
 
-#[inline(always)]
-fn term(x: f64, y: f64, z: f64) -> Term {
-    [x, y, z, x, y, z]
+impl Term {
+    #[inline(always)]
+    fn new(x: f64, y: f64, z: f64) -> Self {
+        Self([y, z, x, 0.0, z, x, y, 0.0])
+    }
+
+    /// The vector again.
+    #[inline(always)]
+    fn vector(&self) -> [f64; 3] {
+        [self.0[2], self.0[0], self.0[1]]
+    }
 }
 
 /// How the terms of a vector follow from those of others.
@@ -30,6 +41,8 @@ fn term(x: f64, y: f64, z: f64) -> Term {
 enum Rule {
     /// `M a`
     Linear(usize, Matrix3),
+    /// `d ∘ a`, component by component.
+    Scaled(usize, Vector3),
     /// `α a + β b`
     Sum([f64; 2], [usize; 2]),
     /// `a b`, component by component.
@@ -76,13 +89,6 @@ enum Start {
     Wave(f64, f64),
 }
 
-/// One of the numbers whose series are asked for.
-#[derive(Debug, Clone, Copy)]
-enum Output {
-    Vector(usize, usize),
-    Quaternion(usize, usize),
-}
-
 /// A list of recurrences.
 #[derive(Debug)]
 pub struct Tape {
@@ -96,7 +102,6 @@ pub struct Tape {
     integrals: Vec<(usize, usize)>,
     turnings: Vec<Turning>,
     starts: Vec<(usize, Start)>,
-    outputs: Vec<Output>,
 }
 
 /// Writing.
@@ -111,12 +116,11 @@ impl Tape {
             integrals: Vec::new(),
             turnings: Vec::new(),
             starts: Vec::new(),
-            outputs: Vec::new(),
         }
     }
 
     fn node(&mut self, constant: Option<Vector3>) -> usize {
-        self.terms.resize(self.terms.len() + self.order + 1, term(0.0, 0.0, 0.0));
+        self.terms.resize(self.terms.len() + self.order + 1, Term::new(0.0, 0.0, 0.0));
         self.constants.push(constant);
         self.constants.len() - 1
     }
@@ -141,38 +145,23 @@ impl Tape {
     /// A vector that does not change.
     pub(crate) fn constant(&mut self, v: Vector3) -> Node {
         let node = self.node(Some(v));
-        self.terms[node * (self.order + 1)] = term(v.x, v.y, v.z);
+        self.terms[node * (self.order + 1)] = Term::new(v.x, v.y, v.z);
         Node(node)
     }
 
-    /// `n` of the numbers from `at` on, as a vector whose rate is still to be said; they are asked for.
+    /// `n` of the numbers from `at` on, as a vector whose rate is still to be said.
     pub(crate) fn numbers(&mut self, at: usize, n: usize) -> Node {
-        let node = self.start(Start::Numbers(at, n));
-        self.ask(at, (0..n).map(|i| Output::Vector(node.0, i)));
-        node
+        self.start(Start::Numbers(at, n))
     }
 
-    /// The number at `at`, whose rate is still to be said; it is asked for.
+    /// The number at `at`, whose rate is still to be said.
     pub(crate) fn number(&mut self, at: usize) -> Node {
-        let node = self.start(Start::Number(at));
-        self.ask(at, std::iter::once(Output::Vector(node.0, 0)));
-        node
+        self.start(Start::Number(at))
     }
 
-    /// The quaternion at `at`, which turns with `rate` in its own axes; it is asked for.
+    /// The quaternion at `at`, which turns with `rate` in its own axes.
     pub(crate) fn turning(&mut self, at: usize, rate: Node) {
-        let turning = self.turnings.len();
         self.turnings.push(Turning { at, rate: rate.0, terms: vec![[[0.0; 4]; 4]; self.order + 1] });
-        self.ask(at, (0..4).map(|i| Output::Quaternion(turning, i)));
-    }
-
-    fn ask(&mut self, at: usize, outputs: impl Iterator<Item = Output>) {
-        for (i, output) in outputs.enumerate() {
-            if self.outputs.len() <= at + i {
-                self.outputs.resize(at + i + 1, output);
-            }
-            self.outputs[at + i] = output;
-        }
     }
 
     /// A vector of the world seen from a body of this attitude that turns with `rate`: `a′ = a × ω`.
@@ -204,9 +193,17 @@ impl Tape {
         }
     }
 
+    /// `d ∘ a`, component by component.
+    pub(crate) fn stretched(&mut self, a: Node, d: Vector3) -> Node {
+        match self.value(a) {
+            Some(v) => self.constant(d.component_mul(&v)),
+            None => self.rule(Rule::Scaled(a.0, d)),
+        }
+    }
+
     /// `α a`
     pub(crate) fn scaled(&mut self, alpha: f64, a: Node) -> Node {
-        self.linear(a, Matrix3::from_diagonal_element(alpha))
+        self.stretched(a, Vector3::repeat(alpha))
     }
 
     /// One of the components as a number.
@@ -218,7 +215,7 @@ impl Tape {
 
     /// A number along a vector that does not change, `v s`.
     pub(crate) fn along(&mut self, v: &Vector3, s: Node) -> Node {
-        self.linear(s, Matrix3::from_diagonal(v))
+        self.stretched(s, *v)
     }
 
     /// `a + β b`
@@ -232,8 +229,8 @@ impl Tape {
     /// `s a` of a number and a vector, or of two vectors component by component.
     pub(crate) fn product(&mut self, s: Node, a: Node) -> Node {
         match (self.value(s), self.value(a)) {
-            (Some(v), _) => self.linear(a, Matrix3::from_diagonal(&v)),
-            (_, Some(v)) => self.linear(s, Matrix3::from_diagonal(&v)),
+            (Some(v), _) => self.stretched(a, v),
+            (_, Some(v)) => self.stretched(s, v),
             _ => self.rule(Rule::Product(s.0, a.0)),
         }
     }
@@ -281,13 +278,13 @@ impl Tape {
             turning.terms[0] = with_turns([y[at], y[at + 1], y[at + 2], y[at + 3]]);
         }
         for k in 0..self.order {
-            for &(node, rule) in &self.rules {
-                self.terms[node * stride + k] = rule.term(&self.terms, stride, (node, k));
+            for (node, rule) in &self.rules {
+                self.terms[node * stride + k] = rule.term(&self.terms, stride, (*node, k));
             }
             let part = 1.0 / (k + 1) as f64;
             for &(node, rate) in &self.integrals {
-                let [x, y, z, ..] = self.terms[rate * stride + k];
-                self.terms[node * stride + k + 1] = term(part * x, part * y, part * z);
+                let rate = self.terms[rate * stride + k].0;
+                self.terms[node * stride + k + 1] = Term(rate.map(|x| part * x));
             }
             for turning in &mut self.turnings {
                 let rates = &self.terms[turning.rate * stride..][..=k];
@@ -296,32 +293,56 @@ impl Tape {
         }
     }
 
+    /// The change of all numbers in a time `h`: `h (c₁ + h (c₂ + …))`.
+    pub(crate) fn change(&self, h: f64, dy: &mut [f64]) {
+        for &(node, start) in &self.starts {
+            let terms = &self.terms[node * (self.order + 1)..][1..=self.order];
+            let sum = |sum: [f64; 4], Term(c): &Term| std::array::from_fn(|i| h * (sum[i] + c[i]));
+            start.put(&terms.iter().rev().fold([0.0; 4], sum), dy);
+        }
+        for turning in &self.turnings {
+            let sum = |sum: [f64; 4], c: &[[f64; 4]; 4]| std::array::from_fn(|i| h * (sum[i] + c[0][i]));
+            let sum: [f64; 4] = turning.terms[1..].iter().rev().fold([0.0; 4], sum);
+            dy[turning.at..turning.at + 4].copy_from_slice(&sum);
+        }
+    }
+
     /// Writes the terms of order `k` of all numbers.
     pub(crate) fn read(&self, k: usize, terms: &mut [f64]) {
-        for (c, output) in zip(terms, &self.outputs) {
-            *c = match *output {
-                Output::Vector(node, i) => self.terms[node * (self.order + 1) + k][i],
-                Output::Quaternion(turning, i) => self.turnings[turning].terms[k][0][i],
-            };
+        for &(node, start) in &self.starts {
+            let [y, z, x, ..] = self.terms[node * (self.order + 1) + k].0;
+            start.put(&[y, z, x, 0.0], terms);
+        }
+        for turning in &self.turnings {
+            terms[turning.at..turning.at + 4].copy_from_slice(&turning.terms[k][0]);
         }
     }
 }
 
 impl Start {
+    /// Writes the vector `[y, z, x]` to the numbers that it begins with, if it does.
+    fn put(&self, [y, z, x, _]: &[f64; 4], numbers: &mut [f64]) {
+        match *self {
+            Self::Numbers(at, n) => numbers[at..at + n].copy_from_slice(&[*x, *y, *z][..n]),
+            Self::Number(at) => numbers[at] = *x,
+            Self::Seen(..) | Self::Wave(..) => {}
+        }
+    }
+
     fn at(&self, t: f64, y: &[f64]) -> Term {
         match *self {
             Self::Numbers(at, n) => {
                 let part = |i: usize| if i < n { y[at + i] } else { 0.0 };
-                term(part(0), part(1), part(2))
+                Term::new(part(0), part(1), part(2))
             }
-            Self::Number(at) => [y[at]; 6],
+            Self::Number(at) => Term::new(y[at], y[at], y[at]),
             Self::Seen(v, attitude) => {
                 let v = attitude.see(y, &v);
-                term(v.x, v.y, v.z)
+                Term::new(v.x, v.y, v.z)
             }
             Self::Wave(w, phase) => {
                 let (sin, cos) = libm::sincos(w * t + phase);
-                term(sin, cos, 0.0)
+                Term::new(sin, cos, 0.0)
             }
         }
     }
@@ -351,66 +372,76 @@ impl Rule {
         let series = |node: usize| &terms[node * stride..][..=k];
         match *self {
             Self::Linear(a, ref m) => {
-                let [x, y, z, ..] = terms[a * stride + k];
+                let [x, y, z] = terms[a * stride + k].vector();
                 let row = |i: usize| m[(i, 0)] * x + m[(i, 1)] * y + m[(i, 2)] * z;
-                term(row(0), row(1), row(2))
+                Term::new(row(0), row(1), row(2))
+            }
+            Self::Scaled(a, ref d) => {
+                let [x, y, z] = terms[a * stride + k].vector();
+                Term::new(d.x * x, d.y * y, d.z * z)
             }
             Self::Sum([alpha, beta], [a, b]) => {
-                let (a, b) = (&terms[a * stride + k], &terms[b * stride + k]);
-                std::array::from_fn(|i| alpha * a[i] + beta * b[i])
+                let (a, b) = (&terms[a * stride + k].0, &terms[b * stride + k].0);
+                Term(std::array::from_fn(|i| alpha * a[i] + beta * b[i]))
             }
             Self::Product(a, b) => {
-                let [x, y, z, _] = products(series(a), series(b));
-                term(x, y, z)
+                let [y, z, x, _] = products(series(a), series(b));
+                Term::new(x, y, z)
             }
             Self::Dot(a, b) => {
-                let [x, y, z, _] = products(series(a), series(b));
-                [x + y + z; 6]
+                let [y, z, x, _] = products(series(a), series(b));
+                let dot = x + y + z;
+                Term::new(dot, dot, dot)
             }
             Self::Cross(a, b) => {
-                let mut sum = [0.0; 4];
-                for (a, b) in zip(series(a), series(b).iter().rev()) {
-                    for i in 0..4 {
-                        sum[i] += a[i + 1] * b[i + 2] - a[i + 2] * b[i + 1];
-                    }
-                }
-                term(sum[0], sum[1], sum[2])
+                let [x, y, z, _] =
+                    convolved(series(a), series(b), |Term(a), Term(b), i| a[i] * b[i + 4] - a[i + 4] * b[i]);
+                Term::new(x, y, z)
             }
             Self::Gyration(a, ref d) => {
-                let mut sum = [0.0; 4];
-                for (a, b) in zip(series(a), series(a).iter().rev()) {
-                    for i in 0..4 {
-                        sum[i] += a[i + 1] * b[i + 2];
-                    }
-                }
-                term(d.x * sum[0], d.y * sum[1], d.z * sum[2])
+                let [x, y, z, _] = convolved(series(a), series(a), |Term(a), Term(b), i| a[i] * b[i + 4]);
+                Term::new(d.x * x, d.y * y, d.z * z)
             }
             Self::Power(a, alpha) => {
                 let (base, power) = (series(a), series(own));
                 if k == 0 {
-                    return [libm::pow(base[0][0], alpha); 6];
+                    let start = libm::pow(base[0].0[0], alpha);
+                    return Term::new(start, start, start);
                 }
                 // p = aᵅ:  a p′ = α a′ p
                 let mut sum = 0.0;
                 for j in 1..=k {
-                    sum += (alpha * j as f64 - (k - j) as f64) * base[j][0] * power[k - j][0];
+                    sum += (alpha * j as f64 - (k - j) as f64) * (base[j].0[0] * power[k - j].0[0]);
                 }
-                [sum / (k as f64 * base[0][0]); 6]
+                let next = sum / (k as f64 * base[0].0[0]);
+                Term::new(next, next, next)
             }
         }
     }
 }
 
-/// `Σ_j a_j b_{k−j}`, component by component.
+/// `Σ_j f(a_j, b_{k−j})`, where both end at the order k. The terms found last come last, so that the others are summed
+/// while these are still on their way.
 #[inline(always)]
-fn products(a: &[Term], b: &[Term]) -> [f64; 4] {
+fn convolved<A, B>(a: &[A], b: &[B], f: impl Fn(&A, &B, usize) -> f64) -> [f64; 4] {
     let mut sum = [0.0; 4];
+    let ([a0, a @ ..], [b0, b @ ..]) = (a, b) else { return sum };
+    let ([a @ .., ak], [b @ .., bk]) = (a, b) else { return std::array::from_fn(|i| f(a0, b0, i)) };
     for (a, b) in zip(a, b.iter().rev()) {
         for i in 0..4 {
-            sum[i] += a[i] * b[i];
+            sum[i] += f(a, b, i);
         }
     }
+    for i in 0..4 {
+        sum[i] += f(a0, bk, i) + f(ak, b0, i);
+    }
     sum
+}
+
+/// The products of two vectors component by component, in the order y, z, x.
+#[inline(always)]
+fn products(a: &[Term], b: &[Term]) -> [f64; 4] {
+    convolved(a, b, |Term(a), Term(b), i| a[i] * b[i])
 }
 
 /// A quaternion, and what the components of an angular velocity multiply in `q [0, ω]`.
@@ -422,11 +453,5 @@ fn with_turns([w, x, y, z]: [f64; 4]) -> [[f64; 4]; 4] {
 /// `(q [0, ω])_k`
 #[inline(always)]
 fn turned(q: &[[[f64; 4]; 4]], rates: &[Term]) -> [f64; 4] {
-    let mut sum = [0.0; 4];
-    for ([_, a, b, c], w) in zip(q, rates.iter().rev()) {
-        for i in 0..4 {
-            sum[i] += (a[i] * w[0] + b[i] * w[1]) + c[i] * w[2];
-        }
-    }
-    sum
+    convolved(q, rates, |[_, a, b, c], Term(w), i| (a[i] * w[2] + b[i] * w[0]) + c[i] * w[1])
 }

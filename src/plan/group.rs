@@ -2,7 +2,7 @@
 
 use super::{Binding, series};
 use crate::freedom::{Chart, Form, RotationSplit, Scales};
-use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector, taylor};
+use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector, of_order};
 use crate::math::series::Tape;
 use crate::state::{BodyMotion, Load, Moment};
 use std::fmt::Debug;
@@ -93,8 +93,8 @@ macro_rules! single {
         /// The flight by a method of bodies that start at `t` [s] with the numbers `y`; each kind of group has
         /// a step of its own.
         pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
-            if method == Method::Taylor {
-                return expand(bodies, course, t, y);
+            if matches!(method, Method::Taylor | Method::Dmv) {
+                return fly_to_order(bodies, method, course, t, y);
             }
             match bodies.charts.as_slice() {
                 $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
@@ -130,7 +130,7 @@ pub(super) struct Bodies {
 pub(super) struct Course {
     pub(super) control: Control,
     pub(super) projection: bool,
-    /// Order of power series.
+    /// Order of methods that take one.
     pub(super) order: u32,
 }
 
@@ -141,11 +141,11 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
     Box::new(Integration::new(problem, integrator.expect("a method in the axes of the charts"), t, y))
 }
 
-/// The flight by power series: the work is done on a tape, whatever the kind.
-fn expand(bodies: Bodies, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+/// The flight by a method whose order was asked for.
+fn fly_to_order(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
     let problem = Group::<Any>::new(bodies.charts, bodies.motions, bodies.bindings);
-    let integrator = taylor(&problem, course.order, course.control, course.projection);
-    Box::new(Integration::new(problem, integrator, t, y))
+    let integrator = of_order(method, &problem, course.order, course.control, course.projection);
+    Box::new(Integration::new(problem, integrator.expect("a method that takes an order"), t, y))
 }
 
 /// Bodies with their coordinates and what acts on them.

@@ -26,6 +26,10 @@ impl FlightGroup {
                 let reason = format!("exact: {reason} has no closed form; leave the method out, or name another");
                 return Err(Error::refused("run: method", reason));
             }
+            (Some(Method::Dmv), Err(reason)) => {
+                let reason = format!("dmv: {reason} may turn it or depend on its motion; use split4 or dop853");
+                return Err(Error::refused("run: method", reason));
+            }
             (Some(method), _) => (method, "as asked for".to_owned()),
         };
         let without = self.bindings.iter().find(|binding| !series::has_series(&binding.effect));
@@ -38,6 +42,11 @@ impl FlightGroup {
             return Err(Error::refused("run: method", reason));
         }
         let moving = self.bindings.iter().find(|binding| binding.effect.as_effect().depends_on_velocity());
+        if let (Method::Dmv, Some(binding)) = (self.method, moving) {
+            let reason =
+                format!("dmv: the load of {} depends on velocities; use exact or dop853", binding.effect.name());
+            return Err(Error::refused("run: method", reason));
+        }
         if let (true, Some(binding)) = (self.method.needs_positional_loads(), moving) {
             let reason = format!(
                 "{}: the load of {} depends on velocities, which leaves it order 4; use split4 or dop853",

@@ -215,20 +215,19 @@ impl Plan {
         self.options.method.or(chosen).unwrap_or(Method::Exact)
     }
 
-    /// Order of the method, of several the least; 0 where all is closed form. That of power series is the one asked
-    /// for, else that which the tolerance calls for.
+    /// Order of the method, of several the least; 0 where all is closed form.
     pub fn order(&self) -> u32 {
-        let of = |group: &FlightGroup| match group.method {
-            Method::Taylor => self.series_order(),
-            method => method.order(),
-        };
-        self.groups.iter().filter(|group| group.method != Method::Exact).map(of).min().unwrap_or(0)
+        let groups = self.groups.iter().filter(|group| group.method != Method::Exact);
+        groups.map(|group| self.order_of(group.method)).min().unwrap_or(0)
     }
 
-    /// Order of power series.
-    fn series_order(&self) -> u32 {
-        let by_tolerance = || self.tolerance().map(taylor::order_for);
-        self.options.order.or_else(by_tolerance).unwrap_or(Method::Taylor.order())
+    /// Order of a method: the one asked for, of power series else that which the tolerance calls for.
+    fn order_of(&self, method: Method) -> u32 {
+        match (method, self.options.order, self.tolerance()) {
+            (Method::Taylor | Method::Dmv, Some(order), _) => order,
+            (Method::Taylor, None, Some(tolerance)) => taylor::order_for(tolerance),
+            _ => method.order(),
+        }
     }
 
     /// How to run it.
@@ -326,7 +325,7 @@ impl Plan {
             return Ok(Box::new(ClosedFlight::new(problem, motion, control)));
         }
         let bodies = group::Bodies { charts, motions, bindings: spec.bindings.clone() };
-        let course = group::Course { control, projection: self.options.projection, order: self.series_order() };
+        let course = group::Course { control, projection: self.options.projection, order: self.order_of(spec.method) };
         Ok(group::flight(bodies, spec.method, course, t, &y))
     }
 

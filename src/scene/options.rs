@@ -7,7 +7,6 @@ pub use crate::contact::collision::Law;
 use crate::error::{Error, Result};
 pub use crate::impact::Finder;
 use crate::integrator::Method;
-use crate::integrator::taylor::ORDERS;
 
 /// Start and end of a run [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,7 +103,8 @@ pub struct RunOptions {
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none", deserialize_with = "method_or_auto"))]
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub method: Option<Method>,
-    /// Order of the method `taylor`; that which the tolerance calls for if absent, 12 where the step is given.
+    /// Order of the methods `taylor` (if absent, that which the tolerance calls for, 12 where the step is given) and
+    /// `dmv` (10).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub order: Option<u32>,
     /// Length of a step [s].
@@ -185,7 +185,7 @@ impl RunOptions {
         Self { method: Some(method), ..Self::default() }
     }
 
-    /// Order of the method `taylor`.
+    /// Order of the methods `taylor` and `dmv`.
     #[must_use]
     pub fn order(mut self, order: u32) -> Self {
         self.order = Some(order);
@@ -296,12 +296,13 @@ impl RunOptions {
             return Err(Error::refused("run", "a step needs a method beside it"));
         }
         if let Some(order) = self.order {
-            if self.method != Some(Method::Taylor) {
-                return Err(Error::refused("run", "an order needs the method taylor beside it: others have their own"));
-            }
-            if !ORDERS.contains(&order) {
-                let allowed = format!("from {} to {}", ORDERS.start(), ORDERS.end());
-                return Err(Error::value("run", "order", allowed, order));
+            match self.method.and_then(|method| method.allows_order(order)) {
+                None => {
+                    let reason = "an order needs the method taylor or dmv beside it: others have their own";
+                    return Err(Error::refused("run", reason));
+                }
+                Some((allowed, false)) => return Err(Error::value("run", "order", allowed, order)),
+                Some(_) => {}
             }
         }
         if let Some(span) = self.t_span {

@@ -38,6 +38,12 @@ fn stepping() -> impl Iterator<Item = Method> {
     Method::ALL.iter().copied().filter(|&method| method != Method::Exact)
 }
 
+/// Those of them that take the loads of a scene: all but `dmv` where a torque acts.
+fn stepping_through(scene: &Scene) -> impl Iterator<Item = Method> {
+    let torque = !scene.effects.is_empty();
+    stepping().filter(move |&method| !(torque && method == Method::Dmv))
+}
+
 /// Runs with a method and a step, without an estimate.
 fn run(scene: &Scene, end: f64, method: Method, step: f64) -> Trajectory {
     scene.run(0.0..end, &RunOptions::method(method).step(step).estimate(false)).unwrap()
