@@ -1372,7 +1372,7 @@ class Scene:
         method : str, optional
             Method of integration, one of METHODS; "auto" (default) lets the plan choose.
         order : int, optional
-            Order of the methods "taylor" (by default that which the tolerance calls for, 12 where the step is given)
+            Order of the methods "taylor" (by default that which the tolerance calls for, 8 where the step is given)
             and "dmv" (10).
         step : float, optional
             Length of a step [s].

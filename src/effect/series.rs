@@ -82,6 +82,11 @@ impl SeriesBody {
 
     /// A vector in own axes in the world, `R v`.
     pub(crate) fn to_world(&mut self, tape: &mut Tape, v: Node) -> Node {
+        if let Attitude::Quaternion(at) = self.attitude
+            && let Some(carried) = tape.carried(v, at)
+        {
+            return carried;
+        }
         let axes = self.seen(tape);
         let parts = [0, 1, 2].map(|i| {
             let along = tape.dot(axes[i], v);

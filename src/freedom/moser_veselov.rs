@@ -16,7 +16,8 @@
 //!
 //! The first pair is Hairer's and Vilmart's; the others are those polynomials with which J solves the equation above
 //! for the quaternion of the true motion, found in rational arithmetic. Since H and C stay, so does J, and the energy
-//! is kept as |L| is. Steps in which the body turns by more than a radian or so have no such rotation.
+//! is kept as |L| is. Steps in which the body turns by more than a radian or so have no such rotation,
+//! or another than the motion's.
 
 use crate::math::{Matrix3, Vector3, rotation};
 

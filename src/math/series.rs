@@ -55,6 +55,8 @@ enum Rule {
     Gyration(usize, Vector3),
     /// `a^α` of a number.
     Power(usize, f64),
+    /// One of the vectors carried along by a body.
+    Carried(usize),
 }
 
 /// A quaternion that turns with an angular velocity in its own axes, `q′ = ½ q [0, ω]`.
@@ -65,6 +67,17 @@ struct Turning {
     rate: usize,
     /// Every term, and what ω₁, ω₂ and ω₃ multiply in it: `(−x, w, z, −y)`, `(−y, −z, w, x)`, `(−z, y, −x, w)`.
     terms: Vec<[[f64; 4]; 4]>,
+}
+
+/// A vector of a body's own axes, seen from the world: `q [0, v] q̄/|q|²`.
+#[derive(Debug)]
+struct Carried {
+    turning: usize,
+    v: usize,
+    /// Its value, where it does not change.
+    constant: Option<Vector3>,
+    /// `q [0, v]`
+    half: Vec<[f64; 4]>,
 }
 
 /// What body axes follow from.
@@ -101,6 +114,7 @@ pub struct Tape {
     /// Vectors and their rates.
     integrals: Vec<(usize, usize)>,
     turnings: Vec<Turning>,
+    carried: Vec<Carried>,
     starts: Vec<(usize, Start)>,
 }
 
@@ -115,6 +129,7 @@ impl Tape {
             rules: Vec::new(),
             integrals: Vec::new(),
             turnings: Vec::new(),
+            carried: Vec::new(),
             starts: Vec::new(),
         }
     }
@@ -170,6 +185,14 @@ impl Tape {
         let turned = self.cross(node, rate);
         self.integrate(node, turned);
         node
+    }
+
+    /// A vector in the own axes of a body with a quaternion at `at`, seen from the world; none if no quaternion is there.
+    pub(crate) fn carried(&mut self, v: Node, at: usize) -> Option<Node> {
+        let turning = self.turnings.iter().position(|turning| turning.at == at)?;
+        let half = vec![[0.0; 4]; self.order + 1];
+        self.carried.push(Carried { turning, v: v.0, constant: self.value(v), half });
+        Some(self.rule(Rule::Carried(self.carried.len() - 1)))
     }
 
     /// `sin(w t + φ)`
@@ -279,7 +302,10 @@ impl Tape {
         }
         for k in 0..self.order {
             for (node, rule) in &self.rules {
-                self.terms[node * stride + k] = rule.term(&self.terms, stride, (*node, k));
+                self.terms[node * stride + k] = match *rule {
+                    Rule::Carried(i) => self.carried[i].term(&self.turnings, &self.terms, stride, k),
+                    _ => rule.term(&self.terms, stride, (*node, k)),
+                };
             }
             let part = 1.0 / (k + 1) as f64;
             for &(node, rate) in &self.integrals {
@@ -399,7 +425,7 @@ impl Rule {
                 Term::new(x, y, z)
             }
             Self::Gyration(a, ref d) => {
-                let [x, y, z, _] = convolved(series(a), series(a), |Term(a), Term(b), i| a[i] * b[i + 4]);
+                let [x, y, z, _]: [f64; 4] = convolved(series(a), series(a), |Term(a), Term(b), i| a[i] * b[i + 4]);
                 Term::new(d.x * x, d.y * y, d.z * z)
             }
             Self::Power(a, alpha) => {
@@ -416,23 +442,46 @@ impl Rule {
                 let next = sum / (k as f64 * base[0].0[0]);
                 Term::new(next, next, next)
             }
+            Self::Carried(_) => unreachable!("found apart"),
         }
+    }
+}
+
+impl Carried {
+    /// The term of order `k`.
+    #[inline(always)]
+    fn term(&mut self, turnings: &[Turning], terms: &[Term], stride: usize, k: usize) -> Term {
+        let q = &turnings[self.turning].terms[..=k];
+        self.half[k] = match &self.constant {
+            Some(v) => std::array::from_fn(|i| (q[k][1][i] * v.x + q[k][2][i] * v.y) + q[k][3][i] * v.z),
+            None => turned(q, &terms[self.v * stride..][..=k]),
+        };
+
+        // times q̄, of which only the vector is wanted, with the signs put in at the end
+        let s: [f64; 12] = convolved(q, &self.half[..=k], |q, half, i| q[1 + i / 4][i % 4] * half[i % 4]);
+        let [w, x, y, z] = q[0][0];
+        let part = 1.0 / ((w * w + x * x) + (y * y + z * z));
+        Term::new(
+            part * ((s[0] + s[1]) - (s[2] + s[3])),
+            part * ((s[4] - s[5]) + (s[6] - s[7])),
+            part * ((s[8] - s[9]) - (s[10] - s[11])),
+        )
     }
 }
 
 /// `Σ_j f(a_j, b_{k−j})`, where both end at the order k. The terms found last come last, so that the others are summed
 /// while these are still on their way.
 #[inline(always)]
-fn convolved<A, B>(a: &[A], b: &[B], f: impl Fn(&A, &B, usize) -> f64) -> [f64; 4] {
-    let mut sum = [0.0; 4];
+fn convolved<A, B, const N: usize>(a: &[A], b: &[B], f: impl Fn(&A, &B, usize) -> f64) -> [f64; N] {
+    let mut sum = [0.0; N];
     let ([a0, a @ ..], [b0, b @ ..]) = (a, b) else { return sum };
     let ([a @ .., ak], [b @ .., bk]) = (a, b) else { return std::array::from_fn(|i| f(a0, b0, i)) };
     for (a, b) in zip(a, b.iter().rev()) {
-        for i in 0..4 {
+        for i in 0..N {
             sum[i] += f(a, b, i);
         }
     }
-    for i in 0..4 {
+    for i in 0..N {
         sum[i] += f(a0, bk, i) + f(ak, b0, i);
     }
     sum

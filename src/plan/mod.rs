@@ -225,7 +225,7 @@ impl Plan {
     fn order_of(&self, method: Method) -> u32 {
         match (method, self.options.order, self.tolerance()) {
             (Method::Taylor | Method::Dmv, Some(order), _) => order,
-            (Method::Taylor, None, Some(tolerance)) => taylor::order_for(tolerance),
+            (Method::Taylor, None, Some(tolerance)) => taylor::order_for(tolerance, self.options.estimate),
             _ => method.order(),
         }
     }

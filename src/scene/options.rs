@@ -103,7 +103,7 @@ pub struct RunOptions {
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none", deserialize_with = "method_or_auto"))]
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub method: Option<Method>,
-    /// Order of the methods `taylor` (if absent, that which the tolerance calls for, 12 where the step is given) and
+    /// Order of the methods `taylor` (if absent, that which the tolerance calls for, 8 where the step is given) and
     /// `dmv` (10).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub order: Option<u32>,

@@ -108,7 +108,9 @@ fn a_tolerance_calls_for_an_order_and_is_kept_by_few_steps() {
     let truth = run(&scene, 3.0, Method::Dop853, 1e-3);
     for (tolerance, order) in [(1e-3, 5), (1e-6, 8), (1e-9, 12), (1e-12, 15)] {
         let options = RunOptions { method: Some(Method::Taylor), ..RunOptions::tolerance(tolerance) };
+        // finer runs follow, or not
         assert_eq!(scene.compile(&options).unwrap().order(), order);
+        assert_eq!(scene.compile(&options.clone().estimate(false)).unwrap().order(), order + 6);
         let kept = scene.run(0.0..3.0, &options).unwrap();
         let error = (0..=200).map(|i| distance(&kept.states(i)[0], &truth.states(i)[0])).fold(0.0, f64::max);
         assert!(kept.report().met == Some(true) && error <= tolerance, "{tolerance:e}: {error:e} {}", kept.report());
@@ -156,7 +158,43 @@ fn what_has_no_series_is_refused_by_name() {
 
     let refusal = |options: RunOptions| free_body().compile(&options).unwrap_err().to_string();
     assert!(refusal(taylor.clone().order(2)).contains("order must be from 3 to 40, got 2"));
-    assert!(refusal(RunOptions::method(Method::Rk4).order(4).step(0.1)).contains("an order needs the method taylor"));
+    assert!(refusal(RunOptions::method(Method::Dmv).order(5)).contains("order must be 2, 4, 6, 8 or 10, got 5"));
+    let others = refusal(RunOptions::method(Method::Rk4).order(4).step(0.1));
+    assert!(others.contains("an order needs the method taylor or dmv"), "{others}");
+}
+
+#[test]
+fn the_discrete_rotation_has_every_order_and_refuses_what_costs_it() {
+    let mut scene = slanted(Freedom::Free);
+    scene.add_effect(UniformGravity::new([0.3, -1.0, -9.81]));
+    let truth = last(&run(&scene, 4.0, Method::Exact, 4.0));
+    for order in [2, 4, 6, 8, 10] {
+        let error = |n: u32| {
+            let options = RunOptions::method(Method::Dmv).order(order).step(4.0 / f64::from(n)).estimate(false);
+            distance(&last(&scene.run(0.0..4.0, &options).unwrap()), &truth)
+        };
+        // the first halving that ends in small errors, and before rounding
+        let (mut n, mut coarse) = (8, error(8));
+        while coarse > 1e-4 {
+            (n, coarse) = (2 * n, error(2 * n));
+        }
+        let slope = (coarse / error(2 * n)).log2();
+        assert!(
+            (-0.3..0.6).contains(&(slope - f64::from(order))),
+            "order {order}: {slope:.2} from {coarse:.1e} at {n}"
+        );
+    }
+
+    // with torque, and with drag, even where the motion has a closed form
+    let refusal = |load: fn(&mut Scene)| {
+        let mut scene = slanted(Freedom::Free);
+        load(&mut scene);
+        scene.compile(&RunOptions::method(Method::Dmv).step(0.1)).unwrap_err().to_string()
+    };
+    let said = refusal(|s| s.add_effect(Wrench::new("body", [0.0; 3], [0.1, 0.0, 0.0])));
+    assert!(said.contains("dmv: wrench on body may turn it"), "{said}");
+    let said = refusal(|s| s.add_effect(Drag::new(0.1, 0.0)));
+    assert!(said.contains("dmv: the load of drag depends on velocities"), "{said}");
 }
 
 #[test]
