@@ -77,14 +77,9 @@ fn scene(kind: BodyKind) -> Result<Scene> {
 /// Time of a step of one body [s]; where the method refuses what acts on bodies of this kind, that of a free one.
 fn time_of_step(method: Method, kind: BodyKind, kept: bool) -> Result<f64> {
     let options = RunOptions::method(method).step(STEP);
-    let (scene, plan) = match scene(kind).and_then(|scene| Ok((scene.compile(&options)?, scene))) {
-        Ok((plan, scene)) => (scene, plan),
-        // loads that the method refuses: no plan asks for them
-        Err(_) => {
-            let scene = scene(BodyKind::Free)?;
-            (scene.clone(), scene.compile(&options)?)
-        }
-    };
+    let wanted = scene(kind)?;
+    let scene = if wanted.compile(&options).is_ok() { wanted } else { scene(BodyKind::Free)? };
+    let plan = scene.compile(&options)?;
     let mut flight = plan.flight(0, 0.0, &Control::Step(STEP))?;
     let mut least = f64::INFINITY;
     let mut segments = Vec::new();

@@ -36,7 +36,7 @@ pub(crate) enum Place {
 }
 
 /// Force and torque about the centre of mass, in world axes and in own axes; none is 0.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct SeriesLoad {
     pub(crate) force: Option<Node>,
     pub(crate) force_own: Option<Node>,
@@ -67,7 +67,7 @@ impl SeriesBody {
     }
 
     /// A vector of the world in own axes, `Rᵀ v`.
-    pub(crate) fn to_own(&mut self, tape: &mut Tape, v: Node) -> Node {
+    pub(crate) fn own_of(&mut self, tape: &mut Tape, v: Node) -> Node {
         if let (Some(v), None) = (tape.value(v), self.seen) {
             return tape.seen(v, self.attitude, self.angular_velocity);
         }
@@ -81,7 +81,7 @@ impl SeriesBody {
     }
 
     /// A vector in own axes in the world, `R v`.
-    pub(crate) fn to_world(&mut self, tape: &mut Tape, v: Node) -> Node {
+    pub(crate) fn world_of(&mut self, tape: &mut Tape, v: Node) -> Node {
         if let Attitude::Quaternion(at) = self.attitude
             && let Some(carried) = tape.carried(v, at)
         {
@@ -104,7 +104,7 @@ impl SeriesBody {
             Place::Moving(position, _) => {
                 let point = tape.constant(*point);
                 let offset = tape.sum(position, -1.0, point);
-                self.to_own(tape, offset)
+                self.own_of(tape, offset)
             }
             Place::Arm(pivot, arm) => {
                 let arm = tape.constant(arm);
@@ -112,7 +112,7 @@ impl SeriesBody {
                     return arm;
                 }
                 let offset = tape.constant(pivot - point);
-                let offset = self.to_own(tape, offset);
+                let offset = self.own_of(tape, offset);
                 tape.sum(offset, 1.0, arm)
             }
         }
@@ -122,7 +122,7 @@ impl SeriesBody {
     pub(crate) fn sum_world(&mut self, world: Option<Node>, own: Option<Node>, tape: &mut Tape) -> Option<Node> {
         let mut sum = world;
         if let Some(own) = own {
-            let turned = self.to_world(tape, own);
+            let turned = self.world_of(tape, own);
             add(tape, &mut sum, turned);
         }
         sum
@@ -132,7 +132,7 @@ impl SeriesBody {
     pub(crate) fn sum_own(&mut self, world: Option<Node>, own: Option<Node>, tape: &mut Tape) -> Option<Node> {
         let mut sum = own;
         if let Some(world) = world {
-            let turned = self.to_own(tape, world);
+            let turned = self.own_of(tape, world);
             add(tape, &mut sum, turned);
         }
         sum

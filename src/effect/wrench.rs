@@ -177,7 +177,7 @@ impl Effect for Wrench {
                 if let Some(point) = point {
                     // (p − x) × F
                     let offset = body.offset_own(tape, &point);
-                    let force = body.to_own(tape, force);
+                    let force = body.own_of(tape, force);
                     let torque = tape.cross(force, offset);
                     add(tape, &mut load.torque_own, torque);
                 }

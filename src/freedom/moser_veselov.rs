@@ -6,7 +6,7 @@
 //!
 //! The unit quaternion (e₀, e) is the rotation of a step, seen from the body: `L₁` is `L₀` turned back by it, so that
 //! |L| stays, and with it `Σ L²/J`. With J the moments of inertia the rotation is right to order 2. It runs on the
-//! same curve as the true motion, only at another pace (McLachlan, Zanna 2005, Found. Comput. Math. 5:87), so that
+//! same curve as the true motion, only at another pace (`McLachlan`, Zanna 2005, Found. Comput. Math. 5:87), so that
 //! moments can be found with which it is right to any order:
 //!
 //! ```text

@@ -477,12 +477,12 @@ fn convolved<A, B, const N: usize>(a: &[A], b: &[B], f: impl Fn(&A, &B, usize) -
     let ([a0, a @ ..], [b0, b @ ..]) = (a, b) else { return sum };
     let ([a @ .., ak], [b @ .., bk]) = (a, b) else { return std::array::from_fn(|i| f(a0, b0, i)) };
     for (a, b) in zip(a, b.iter().rev()) {
-        for i in 0..N {
-            sum[i] += f(a, b, i);
+        for (i, sum) in sum.iter_mut().enumerate() {
+            *sum += f(a, b, i);
         }
     }
-    for i in 0..N {
-        sum[i] += f(a0, bk, i) + f(ak, b0, i);
+    for (i, sum) in sum.iter_mut().enumerate() {
+        *sum += f(a0, bk, i) + f(ak, b0, i);
     }
     sum
 }

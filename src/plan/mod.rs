@@ -230,6 +230,14 @@ impl Plan {
         }
     }
 
+    /// Work of a step of a method at its order, as a multiple of that at the order which costs are measured at [-].
+    pub(crate) fn effort(&self, method: Method) -> f64 {
+        match method {
+            Method::Taylor => taylor::effort(self.order_of(method)),
+            _ => 1.0,
+        }
+    }
+
     /// How to run it.
     pub fn options(&self) -> &RunOptions {
         &self.options

@@ -56,7 +56,8 @@ impl Plan {
             };
             let kind = BodyKind::of(group, self.bodies());
             let moving = group.members.iter().filter(|&&i| !self.bodies()[i].fixed).count();
-            let step = costs.step(group.method, kind, options.record == Record::Dense)? * moving as f64;
+            let one = costs.step(group.method, kind, options.record == Record::Dense)? * moving as f64;
+            let step = one * self.effort(group.method);
             prediction.steps += run * first;
             prediction.run += run * first * step;
             prediction.estimate += estimate * first * step;
