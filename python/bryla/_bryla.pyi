@@ -1490,7 +1490,8 @@ class Plan:
 
     def predict(self, t_span: tuple[_Number, _Number] | None = None) -> tuple[float, float, float] | None:
         """Steps and time [s] that a run over a span is predicted to take: (steps, run, estimate), by the same
-        table as in explain; None where a function of the user has its own price.
+        table as in explain. Where a function of the user is called, some steps are taken to time them. None where
+        contacts cannot be foreseen, and where a step breaks off.
         """
 
     def __eq__(self, value: object, /) -> bool: ...

@@ -49,11 +49,23 @@ impl Scene {
         let t_span = (span.start < span.end && (span.end - span.start).is_finite()).then_some([span.start, span.end]);
         let plan = self.compile(&RunOptions { t_span, ..options.clone() })?;
         let compile = thread_seconds() - began;
-        let mut result = plan.run_observed(span, observer);
+        let mut result = run_shared(&Arc::new(plan), span, observer);
         if let Ok(run) = &mut result {
             run.report.seconds.compile = compile;
         }
         result
+    }
+}
+
+/// Runs a plan that its trajectory will hold.
+fn run_shared(plan: &Arc<Plan>, span: Span, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    let times = plan.options().times(span)?;
+    match (plan.options().step, plan.tolerance()) {
+        (Some(step), _) => plan.run_with_step(span, &times, step, observer),
+        (None, tolerance) => {
+            let tolerance = tolerance.unwrap_or(crate::plan::DEFAULT_TOLERANCE);
+            plan.run_to_tolerance(span, &times, tolerance, observer)
+        }
     }
 }
 
@@ -71,26 +83,18 @@ impl Plan {
     /// # Errors
     /// As [`Scene::run_observed`].
     pub fn run_observed(&self, span: impl Into<Span>, observer: Observer<'_>) -> Result<Trajectory, RunError> {
-        let span = span.into();
-        let times = self.options().times(span)?;
-        match (self.options().step, self.tolerance()) {
-            (Some(step), _) => self.run_with_step(span, &times, step, observer),
-            (None, tolerance) => {
-                let tolerance = tolerance.unwrap_or(crate::plan::DEFAULT_TOLERANCE);
-                self.run_to_tolerance(span, &times, tolerance, observer)
-            }
-        }
+        run_shared(&Arc::new(self.clone()), span.into(), observer)
     }
 
     /// One run with the step asked for, and one with twice the step to estimate its error.
     fn run_with_step(
-        &self,
+        self: &Arc<Self>,
         span: Span,
         times: &[f64],
         step: f64,
         observer: Observer<'_>,
     ) -> Result<Trajectory, RunError> {
-        let course = Course { plan: Arc::new(self.clone()), span, times };
+        let course = Course { plan: self.clone(), span, times };
         let began = thread_seconds();
         let mut run = course.pass(self.controls(&Control::Step(step)), Grain::FINE, 1, observer).map_err(Box::new)?.0;
         run.report.seconds.run = thread_seconds() - began;
@@ -134,7 +138,7 @@ impl Plan {
     /// case a pass cuts every step of another in two, so that its error falls as the method's order says,
     /// and where it does not, the three show it.
     fn run_to_tolerance(
-        &self,
+        self: &Arc<Self>,
         span: Span,
         times: &[f64],
         tolerance: f64,
@@ -145,7 +149,7 @@ impl Plan {
             let allowed = format!("at least {floor:.1e}, what rounding leaves of this scene");
             return Err(Error::value("run", "tolerance", allowed, tolerance).into());
         }
-        let course = Course { plan: Arc::new(self.clone()), span, times };
+        let course = Course { plan: self.clone(), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(self, span, tolerance);
         let (began, mut mismatches) = (thread_seconds(), 0);
