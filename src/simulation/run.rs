@@ -151,9 +151,10 @@ impl Plan {
         let (began, mut mismatches, mut best) = (thread_seconds(), 0, None::<Trajectory>);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
+            let grain = pace.grain(4.0);
             let (mut run, nodes) = course.attempt(
                 self.controls(&pace.control),
-                pace.grain(4.0),
+                if estimates { grain } else { Grain { nudge: 0.0, ..grain } },
                 3 * number + 1,
                 observer,
                 &mut failure,
