@@ -70,11 +70,12 @@ def bryla_scene(problem: Problem) -> bryla.Scene:
     return scene
 
 
-def bryla_with(scene: bryla.Scene, method: str) -> Solver:
+def bryla_with(scene: bryla.Scene, method: str, **order: int) -> Solver:
     """A method of bryla with that many steps; the error is not estimated."""
+    options = {"method": method, "estimate": False, "record": "end", **order}
 
     def orientation(steps: float) -> np.ndarray:
-        return scene.run((0.0, END), method=method, step=END / steps, estimate=False, record="end").orientation[-1, 0]
+        return scene.run((0.0, END), step=END / steps, **options).orientation[-1, 0]
 
     return orientation
 
@@ -250,6 +251,7 @@ def compare(problem: Problem) -> None:
         *(Contestant(name, *knob, solver) for name, knob, solver in zip(PEERS, knobs, solvers, strict=True)),
         Contestant("bryla, rk4", "steps", STEPS, bryla_with(scene, "rk4")),
         Contestant("bryla, dop853", "steps", STEPS, bryla_with(scene, "dop853")),
+        Contestant("bryla, taylor of order 20", "steps", STEPS, bryla_with(scene, "taylor", order=20)),
         Contestant("bryla, split8", "steps", STEPS, bryla_with(scene, "split8")),
         Contestant("bryla, its own choice", "tolerance", None, bryla_to(scene, estimate=False)),
         Contestant("the same, error estimated", "tolerance", None, bryla_to(scene, estimate=True)),
