@@ -19,8 +19,12 @@ mod axle;
 mod free;
 mod pivot;
 mod planar;
+pub mod prescribed;
+pub(crate) mod riding;
 pub(crate) mod spin;
 
+pub use prescribed::Prescribed;
+pub use riding::Riding;
 pub(crate) use spin::Spin;
 pub use spin::{Form, RotationSplit};
 
@@ -122,9 +126,11 @@ pub enum Chart {
     Axle(axle::Axle),
     /// None: the body rests.
     Fixed,
+    /// None: the body is part of a compound.
+    Riding(Riding),
 }
 
-/// Calls the variant's own method; a fixed body has nothing to integrate.
+/// Calls the variant's own method; a body that rests, or rides, has nothing to integrate.
 macro_rules! dispatch {
     ($chart:expr, $inner:ident => $call:expr, $fixed:expr) => {
         match $chart {
@@ -132,7 +138,7 @@ macro_rules! dispatch {
             Chart::Planar($inner) => $call,
             Chart::Pivot($inner) => $call,
             Chart::Axle($inner) => $call,
-            Chart::Fixed => $fixed,
+            Chart::Fixed | Chart::Riding(_) => $fixed,
         }
     };
 }
@@ -185,7 +191,7 @@ impl Chart {
                 self.decode(y, motion);
                 self.rate(y, motion, load, dy);
             }
-            Self::Fixed => {}
+            Self::Fixed | Self::Riding(_) => {}
         }
     }
 
@@ -212,7 +218,7 @@ impl Chart {
                     (*y, *rest) = two_sum(*y, h * dy + *rest);
                 }
             }
-            Self::Fixed => {}
+            Self::Fixed | Self::Riding(_) => {}
         }
     }
 
@@ -222,7 +228,7 @@ impl Chart {
         match self {
             Self::Free(c) => Some((at + 6..at + self.dimension(), c.spin())),
             Self::Pivot(c) => Some((at..at + self.dimension(), c.spin())),
-            Self::Planar(_) | Self::Axle(_) | Self::Fixed => None,
+            Self::Planar(_) | Self::Axle(_) | Self::Fixed | Self::Riding(_) => None,
         }
     }
 
@@ -252,10 +258,11 @@ impl Chart {
         dispatch!(self, c => c.error_size(y0, y1, e, scales), 0.0)
     }
 
-    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m].
+    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m]; nothing of a
+    /// part, which its compound holds, not its freedom.
     pub fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {
         match self {
-            Self::Free(_) => Load::zero(),
+            Self::Free(_) | Self::Riding(_) => Load::zero(),
             Self::Planar(c) => c.reaction(motion, load),
             Self::Pivot(c) => c.reaction(motion, load),
             Self::Axle(c) => c.reaction(motion, load),

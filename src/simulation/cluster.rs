@@ -35,7 +35,7 @@ pub(super) struct Cluster {
 }
 
 impl Cluster {
-    /// Adds a body, if it is not in; its place.
+    /// Adds a body that flies on its own, if it is not in; its place.
     pub(super) fn add(&mut self, body: usize, motion: BodyMotion) -> usize {
         self.place(body).unwrap_or_else(|| {
             self.bodies.push(body);
@@ -59,38 +59,54 @@ impl Cluster {
 impl Simulation {
     /// All that touches at `time`, starting from these bodies.
     pub(super) fn cluster(&self, seeds: &[usize], time: Time) -> Result<Cluster, SimulationError> {
-        let plan = &self.plan;
         let mut cluster = Cluster::default();
         for &body in seeds {
-            cluster.add(body, self.motion_at(body, time));
+            let unit = self.unit(body);
+            cluster.add(unit, self.motion_at(unit, time));
         }
-        let (mut next, mut others) = (0, Vec::new());
+        let (mut next, mut bodies, mut others) = (0, Vec::new(), Vec::new());
         while next < cluster.bodies.len() {
-            let (body, motion) = (cluster.bodies[next], cluster.motions[next]);
+            self.parts_of(cluster.bodies[next], &mut bodies);
             next += 1;
-            if plan.bodies()[body].fixed {
-                continue;
-            }
-            let radius = plan.bodies()[body].radius;
-            self.near.around(&Aabb::of_ball(&motion.position, radius + self.reach_of(radius)), &mut others);
-            for &other in others.iter().filter(|&&other| other != body && plan.may_meet(body, other)) {
-                let pair = if plan.bodies()[other].fixed || other < body { [other, body] } else { [body, other] };
-                if cluster.touching.iter().any(|touching| touching.bodies == pair) {
-                    continue;
-                }
-                let closest = self.closest(pair[0], pair[1], time)?;
-                let reach = self.eps(pair[0], pair[1]) + TOUCH_GAP * self.size(pair[0], pair[1]);
-                if closest.signed_distance > reach {
-                    continue;
-                }
-                let places = [pair[0], pair[1]].map(|i| cluster.add(i, self.motion_at(i, time)));
-                let first = cluster.contacts.len();
-                self.add_contacts(&mut cluster, pair, time, places, reach)?;
-                let contacts = first..cluster.contacts.len();
-                cluster.touching.push(Touching { bodies: pair, closest, contacts });
+            for &body in &bodies {
+                self.add_touching(&mut cluster, body, time, &mut others)?;
             }
         }
         Ok(cluster)
+    }
+
+    /// Adds what touches a body of the scene.
+    fn add_touching(
+        &self,
+        cluster: &mut Cluster,
+        body: usize,
+        time: Time,
+        others: &mut Vec<usize>,
+    ) -> Result<(), SimulationError> {
+        let plan = &self.plan;
+        if plan.bodies()[body].fixed {
+            return Ok(());
+        }
+        let radius = plan.bodies()[body].radius;
+        let center = self.motion_at(body, time).position;
+        self.near.around(&Aabb::of_ball(&center, radius + self.reach_of(radius)), others);
+        for &other in others.iter().filter(|&&other| self.may_meet(body, other)) {
+            let pair = if plan.bodies()[other].fixed || other < body { [other, body] } else { [body, other] };
+            if cluster.touching.iter().any(|touching| touching.bodies == pair) {
+                continue;
+            }
+            let closest = self.closest(pair[0], pair[1], time)?;
+            let reach = self.eps(pair[0], pair[1]) + TOUCH_GAP * self.size(pair[0], pair[1]);
+            if closest.signed_distance > reach {
+                continue;
+            }
+            let places = pair.map(|i| cluster.add(self.unit(i), self.motion_at(self.unit(i), time)));
+            let first = cluster.contacts.len();
+            self.add_contacts(cluster, pair, time, places, reach)?;
+            let contacts = first..cluster.contacts.len();
+            cluster.touching.push(Touching { bodies: pair, closest, contacts });
+        }
+        Ok(())
     }
 
     /// The points in which two bodies touch: of every two pieces within `reach` [m] all that carry.
@@ -133,10 +149,10 @@ impl Simulation {
 
     /// A body of a cluster as contacts meet it.
     pub(super) fn cluster_body(&self, body: usize, motion: &BodyMotion) -> ClusterBody {
-        if self.places[body].is_none() {
+        if self.places[body].is_none() || self.is_stuck(body) {
             return ClusterBody::driven(motion);
         }
-        ClusterBody::free(motion, &self.plan.bodies()[body].properties.inv_inertia())
+        ClusterBody::free(motion, &self.body(body).properties.inv_inertia())
     }
 
     /// Where the axes of a body's shape stand at an instant.

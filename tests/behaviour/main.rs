@@ -13,8 +13,10 @@ mod freedoms;
 mod impacts;
 mod layers;
 mod order;
+mod prescribed;
 mod promises;
 mod rest;
+mod sticking;
 mod switching;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};
