@@ -24,9 +24,9 @@ impl Free {
         &self.spin
     }
 
-    /// The inverses of its mass [1/kg] and of its principal moments [1/(kg·m²)].
-    pub(crate) fn inverses(&self) -> (f64, &Vector3) {
-        (self.inv_mass, self.spin.inv_moments())
+    /// The inverses of its mass [1/kg] and of its principal moments [1/(kg·m²)], and their [gaps](Spin::gaps).
+    pub(crate) fn inverses(&self) -> (f64, &Vector3, &Vector3) {
+        (self.inv_mass, self.spin.inv_moments(), self.spin.gaps())
     }
 
     #[inline]

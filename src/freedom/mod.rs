@@ -232,8 +232,8 @@ impl Chart {
         }
     }
 
-    /// Amends a change `dy` of the numbers, of which rounding left `rest`, so that the orientation ends on
-    /// its sphere (or R on the rotations), lecture §4; returns how far it had strayed: `||q| − 1|` or
+    /// Amends a change `dy` of the numbers, of which rounding left `rest`, so that the orientation does not leave
+    /// its sphere (or R the rotations), lecture §4; returns how far it had strayed: `||q| − 1|` or
     /// `‖RᵀR − I‖` [-].
     #[inline(always)]
     pub fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {

@@ -150,8 +150,8 @@
 //! # Projection
 //!
 //! A step leaves `q` off the unit sphere (`R` off the rotations). The right-hand side always uses the
-//! rotation of `q/|q|`, so that the stray length itself does no harm within a step; after the step `q` is
-//! divided by its length, `R` replaced by its polar factor. The largest stray before that is
+//! rotation of `q/|q|`, so that the stray length itself does no harm; the next step divides `q` by its
+//! length, and `R` is replaced by its polar factor at once. The largest stray before that is
 //! [`Counts::orientation_drift`](crate::integrator::Counts::orientation_drift), a free measure of how rough
 //! the steps are. With [`projection`](crate::scene::RunOptions::projection) off, it adds up for all to see.
 //!

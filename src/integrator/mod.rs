@@ -10,6 +10,7 @@
 //! ```
 
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
@@ -56,19 +57,35 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     /// Takes back what was lent.
     fn take_back(&mut self, lent: Self);
 
+    /// The numbers that change; the rate of the others is 0, and stands so in every vector of rates.
+    #[inline(always)]
+    fn moving(&self) -> [Range<usize>; 2] {
+        [0..self.as_ref().len(), 0..0]
+    }
+
+    /// Takes over from `y` the numbers that do not change.
+    #[inline(always)]
+    fn set_steady(&mut self, _y: &Self) {}
+
     /// `self += a · k`
     #[inline]
     fn add_scaled(&mut self, a: f64, k: &Self) {
-        for (y, k) in self.as_mut().iter_mut().zip(k.as_ref()) {
-            *y += a * k;
+        for moving in self.moving() {
+            for (y, k) in self.as_mut()[moving.clone()].iter_mut().zip(&k.as_ref()[moving]) {
+                *y += a * k;
+            }
         }
     }
 
     /// `self = y + a · k`
     #[inline(always)]
     fn set_sum(&mut self, y: &Self, a: f64, k: &Self) {
-        for ((s, y), k) in self.as_mut().iter_mut().zip(y.as_ref()).zip(k.as_ref()) {
-            *s = y + a * k;
+        self.set_steady(y);
+        for moving in self.moving() {
+            let terms = y.as_ref()[moving.clone()].iter().zip(&k.as_ref()[moving.clone()]);
+            for (s, (y, k)) in self.as_mut()[moving].iter_mut().zip(terms) {
+                *s = y + a * k;
+            }
         }
     }
 
@@ -76,12 +93,15 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     #[inline(always)]
     fn set_combination<const N: usize>(&mut self, y: &Self, h: f64, terms: [(f64, &Self); N]) {
         let terms = terms.map(|(a, k)| (a, k.as_ref()));
-        for (i, (s, y)) in self.as_mut().iter_mut().zip(y.as_ref()).enumerate() {
-            let mut sum = terms[0].0 * terms[0].1[i];
-            for (a, k) in &terms[1..] {
-                sum += a * k[i];
+        self.set_steady(y);
+        for moving in self.moving() {
+            for i in moving {
+                let mut sum = terms[0].0 * terms[0].1[i];
+                for (a, k) in &terms[1..] {
+                    sum += a * k[i];
+                }
+                self.as_mut()[i] = y.as_ref()[i] + h * sum;
             }
-            *s = y + h * sum;
         }
     }
 
@@ -89,12 +109,14 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     #[inline(always)]
     fn set_increment<const N: usize>(&mut self, h: f64, terms: [(f64, &Self); N]) {
         let terms = terms.map(|(a, k)| (a, k.as_ref()));
-        for (i, s) in self.as_mut().iter_mut().enumerate() {
-            let mut sum = terms[0].0 * terms[0].1[i];
-            for (a, k) in &terms[1..] {
-                sum += a * k[i];
+        for moving in self.moving() {
+            for i in moving {
+                let mut sum = terms[0].0 * terms[0].1[i];
+                for (a, k) in &terms[1..] {
+                    sum += a * k[i];
+                }
+                self.as_mut()[i] = h * sum;
             }
-            *s = h * sum;
         }
     }
 
@@ -107,8 +129,11 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
     #[inline(always)]
     fn add_compensated(&mut self, dy: &Self, rest: &mut Self) {
-        for ((y, dy), rest) in self.as_mut().iter_mut().zip(dy.as_ref()).zip(rest.as_mut()) {
-            (*y, *rest) = two_sum(*y, dy + *rest);
+        for moving in self.moving() {
+            let changes = dy.as_ref()[moving.clone()].iter().zip(&mut rest.as_mut()[moving.clone()]);
+            for (y, (dy, rest)) in self.as_mut()[moving].iter_mut().zip(changes) {
+                (*y, *rest) = two_sum(*y, dy + *rest);
+            }
         }
     }
 }
@@ -188,8 +213,8 @@ pub trait Problem: Debug + Send {
     /// `a += c (a × b)` on the angular velocities in two generators.
     fn add_bracket(&self, c: f64, a: &mut Self::Y, b: &Self::Y);
 
-    /// Amends a change `dy` of `y`, of which rounding left `rest`, so that it ends with orientations on
-    /// their sphere (lecture §4); returns how far the worst had strayed [-].
+    /// Amends a change `dy` of `y`, of which rounding left `rest`, so that orientations do not leave
+    /// their sphere (lecture §4): what the steps before have strayed is taken away; returns how far that was [-].
     fn project(&mut self, y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64;
 
     /// How far the worst orientation is off its sphere, as it stands [-].

@@ -8,7 +8,7 @@ use crate::tolerance::STEP_REMAINDER;
 /// A one-step method on its way.
 ///
 /// ```text
-/// Y₁ = Y₀ + ΔY,  then orientations put back on their sphere        both sums compensated
+/// Y₁ = Y₀ + ΔY,  ΔY amended so that orientations stay on their sphere        both sums compensated
 /// ```
 ///
 /// With [`Control::Step`] steps follow each other from the start or the last hard stop, and the one
@@ -36,7 +36,7 @@ pub(super) struct Stepper<P: Problem, K> {
     /// Whether the slope at the front is known, in `end_slope`.
     slope_known: bool,
     increment: P::Y,
-    /// How far the orientations had strayed before they were put back [-].
+    /// How far the orientations had strayed when they were put back [-].
     strayed: f64,
     /// Length that error control proposes for the next step [s]; 0 where it has none yet.
     proposal: f64,
@@ -270,6 +270,8 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
                 return Err(FlightError::NotFinite);
             }
             if front.time.value >= to {
+                // what the last step has strayed is put right by the next
+                counts.orientation_drift = counts.orientation_drift.max(problem.orientation_error(&front.y));
                 return Ok(());
             }
         }

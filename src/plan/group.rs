@@ -6,6 +6,7 @@ use crate::freedom::{Chart, Form, RotationSplit, Scales};
 use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector};
 use crate::state::{BodyMotion, Load, Moment};
 use std::fmt::Debug;
+use std::ops::Range;
 
 /// What is known of a group's coordinates where its step is compiled.
 ///
@@ -37,8 +38,7 @@ pub trait Kind: Debug + Send + 'static {
         }
     }
 
-    /// Amends a change so that it ends with orientations on their sphere; returns how far the worst had
-    /// strayed [-].
+    /// Amends a change so that orientations do not leave their sphere; returns how far the worst had strayed [-].
     #[inline(always)]
     fn project(charts: &[Chart], y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64 {
         let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
@@ -65,17 +65,63 @@ impl Kind for Any {
     }
 }
 
+/// The numbers of a free body on which nothing acts, x, P, q, L. P stays, and so does L in world axes:
+/// nothing is spent on them.
+#[derive(Debug, Clone)]
+pub(crate) struct Unloaded<const WORLD_AXES: bool>([f64; 13]);
+
+impl<const WORLD_AXES: bool> AsRef<[f64]> for Unloaded<WORLD_AXES> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl<const WORLD_AXES: bool> AsMut<[f64]> for Unloaded<WORLD_AXES> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [f64] {
+        &mut self.0
+    }
+}
+
+impl<const WORLD_AXES: bool> StateVector for Unloaded<WORLD_AXES> {
+    fn zeros(n: usize) -> Self {
+        Self(StateVector::zeros(n))
+    }
+
+    #[inline(always)]
+    fn moving(&self) -> [Range<usize>; 2] {
+        if WORLD_AXES { [0..3, 6..10] } else { [0..3, 6..13] }
+    }
+
+    #[inline(always)]
+    fn set_steady(&mut self, y: &Self) {
+        self.0[3..6].copy_from_slice(&y.0[3..6]);
+        if WORLD_AXES {
+            self.0[10..].copy_from_slice(&y.0[10..]);
+        }
+    }
+
+    #[inline(always)]
+    fn lend(&mut self) -> Self {
+        Self([0.0; 13])
+    }
+
+    #[inline(always)]
+    fn take_back(&mut self, _lent: Self) {}
+}
+
 /// Declares the kinds of single bodies: how many numbers they have, whether world axes, body
 /// axes and the absence of loads are meant, and what their only chart is.
 macro_rules! single {
-    ($($(#[$doc:meta])* $kind:ident: [$n:literal, $world:literal, $body:literal, $unloaded:literal] $pattern:pat $(if $known:expr)?,)*) => {
+    ($($(#[$doc:meta])* $kind:ident: [$y:ty, $world:literal, $body:literal, $unloaded:literal] $pattern:pat $(if $known:expr)?,)*) => {
         $(
             $(#[$doc])*
             #[derive(Debug)]
             pub(crate) struct $kind;
 
             impl Kind for $kind {
-                type Y = [f64; $n];
+                type Y = $y;
                 const WORLD_AXES: bool = $world;
                 const BODY_AXES: bool = $body;
                 const UNLOADED: bool = $unloaded;
@@ -103,17 +149,17 @@ macro_rules! single {
 
 single! {
     /// A free body on which nothing acts, with q and L in body axes, in short steps.
-    UnloadedBodyAxes: [13, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
+    UnloadedBodyAxes: [Unloaded<false>, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
     /// A free body on which nothing acts, with q and L in world axes, in short steps.
-    UnloadedWorldAxes: [13, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    UnloadedWorldAxes: [Unloaded<true>, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A free body with q and L in body axes.
-    FreeBodyAxes: [13, false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
+    FreeBodyAxes: [[f64; 13], false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
     /// A free body with q and L in world axes.
-    FreeWorldAxes: [13, true, false, false] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    FreeWorldAxes: [[f64; 13], true, false, false] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A top with q and L in body axes.
-    PivotBodyAxes: [7, false, true, false] Chart::Pivot(c) if c.spin().form() == Form::Body,
+    PivotBodyAxes: [[f64; 7], false, true, false] Chart::Pivot(c) if c.spin().form() == Form::Body,
     /// A body in a plane.
-    InPlane: [6, true, true, false] Chart::Planar(_),
+    InPlane: [[f64; 6], true, true, false] Chart::Planar(_),
 }
 
 /// Bodies of a group: their coordinates, their motions at the start, and what acts on them.
