@@ -1907,6 +1907,14 @@ class Report:
         """Rounds of the finder, over all impacts."""
 
     @property
+    def touch_impacts(self) -> int:
+        """Instants of impact at which a point took a blow only because its gap was below the touch gap.
+
+        A landing that is flat to that angle, bodies that are hit together: with another touch gap, 1e-9 of the size,
+        they come out differently.
+        """
+
+    @property
     def seconds(self) -> Seconds:
         """Processor time by stage [s]."""
 

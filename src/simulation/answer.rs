@@ -16,7 +16,7 @@ use super::near::{Due, What};
 use super::{Failure, Simulation, SimulationError};
 use crate::contact::accumulation::{Accumulation, rest_speed};
 use crate::contact::cluster::{ClusterError, Contact};
-use crate::contact::collision::{Collision, collide};
+use crate::contact::collision::collide;
 use crate::contact::rest::align;
 use crate::error::Error;
 use crate::freedom::Chart;
@@ -232,10 +232,13 @@ impl Simulation {
             (motion.velocity, motion.angular_velocity) = (velocity.linear, velocity.angular);
         }
 
+        self.touch_impacts += u64::from(self.depends_on_touch(cluster, &collision.impulses));
+
         // one event for every pair that bounced; what others lose is heat
+        let losses = cluster.losses(&before, &collision.impulses);
         let mut booked = 0.0;
         let mut iterations = iterations;
-        for k in 0..cluster.touching.len() {
+        for (k, &loss) in losses.iter().enumerate() {
             let range = cluster.touching[k].contacts.clone();
             let bounces = approaches[range.clone()].iter().any(|&u| u > scales.rest)
                 || collision.impulses[range.clone()].iter().any(|j| {
@@ -246,7 +249,8 @@ impl Simulation {
                     j.norm() > scales.rest * mass[0].min(mass[1])
                 });
             if bounces {
-                booked += self.book_bounce(cluster, &before, &collision, k, time, iterations);
+                let impulses = &collision.impulses[range];
+                booked += self.book_bounce(cluster, &before, impulses, (k, loss), time, iterations);
                 iterations = 0; // the rounds belong to the pair that was searched, not to those that came along
             }
         }
@@ -260,19 +264,18 @@ impl Simulation {
         Ok(true)
     }
 
-    /// Books the bounce of a pair; the energy lost in it [J].
+    /// Books the bounce of a pair, its impulses and the energy lost in it [J]; what was booked of the latter.
     fn book_bounce(
         &mut self,
         cluster: &Cluster,
         before: &[BodyMotion],
-        collision: &Collision,
-        pair: usize,
+        impulses: &[Vector3],
+        (pair, energy_lost): (usize, f64),
         time: Time,
         iterations: u32,
     ) -> f64 {
         let touching = &cluster.touching[pair];
         let range = touching.contacts.clone();
-        let impulses = &collision.impulses[range.clone()];
         let impulse: Vector3 = impulses.iter().sum();
         if impulse == Vector3::zeros() {
             return 0.0;
@@ -283,9 +286,6 @@ impl Simulation {
         let [was, after] = [before, &cluster.motions].map(|motions| self.motions_of(cluster, touching.bodies, motions));
         let (Some([was_a, was_b]), Some([a, b])) = (was, after) else { return 0.0 };
 
-        // what the contact took: −½ j·(u⁻ + u⁺), summed over its points
-        let lost = |(c, j): (&Contact, &Vector3)| -0.5 * j.dot(&(c.slip(before) + c.slip(&cluster.motions)));
-        let energy_lost = contacts.iter().zip(impulses).map(lost).sum();
         let normal = touching.closest.normal;
         let event = Event::between(time.value, EventKind::Bounce, touching.bodies, [&was_a, &a], [&was_b, &b]);
         let features = in_words(&touching.closest);

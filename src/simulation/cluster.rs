@@ -8,7 +8,7 @@ use crate::contact::broad_phase::Aabb;
 use crate::contact::cluster::{ClusterBody, Contact};
 use crate::contact::manifold::{Surface, Touch, manifold};
 use crate::math::sum::Time;
-use crate::math::{Pose, quaternion};
+use crate::math::{Pose, Vector3, quaternion};
 use crate::shape::Shape;
 use crate::state::BodyMotion;
 use crate::tolerance::TOUCH_GAP;
@@ -47,6 +47,25 @@ impl Cluster {
     /// The place of a body.
     pub(super) fn place(&self, body: usize) -> Option<usize> {
         self.bodies.iter().position(|&i| i == body)
+    }
+
+    /// The energy that each pair lost in an impact [J], after it: −½ j·(u⁻ + u⁺), summed over its points. Where
+    /// one pair drives another, some of these sums are negative and others too large; then the positive ones share
+    /// what all have lost, in proportion.
+    pub(super) fn losses(&self, before: &[BodyMotion], impulses: &[Vector3]) -> Vec<f64> {
+        let lost = |i: usize| {
+            let contact = &self.contacts[i];
+            -0.5 * impulses[i].dot(&(contact.slip(before) + contact.slip(&self.motions)))
+        };
+        let mut losses: Vec<f64> = self.touching.iter().map(|t| t.contacts.clone().map(lost).sum()).collect();
+        if losses.iter().any(|loss| *loss < 0.0) {
+            let (all, taken) = (losses.iter().sum::<f64>(), losses.iter().filter(|loss| **loss > 0.0).sum::<f64>());
+            let part = if taken > 0.0 { (all / taken).max(0.0) } else { 0.0 };
+            for loss in &mut losses {
+                *loss = part * loss.max(0.0);
+            }
+        }
+        losses
     }
 
     /// How fast the bodies of a contact approach at its point [m/s]; the fastest of its normals.
@@ -107,6 +126,14 @@ impl Simulation {
             cluster.touching.push(Touching { bodies: pair, closest, contacts });
         }
         Ok(())
+    }
+
+    /// Whether a point took part in an impact that only `ε_touch` counts as touching: its gap is above ε.
+    pub(super) fn depends_on_touch(&self, cluster: &Cluster, impulses: &[Vector3]) -> bool {
+        cluster.touching.iter().any(|touching| {
+            let eps = self.eps(touching.bodies[0], touching.bodies[1]);
+            touching.contacts.clone().any(|i| cluster.gaps[i] > eps && impulses[i] != Vector3::zeros())
+        })
     }
 
     /// The points in which two bodies touch: of every two pieces within `reach` [m] all that carry.

@@ -192,6 +192,8 @@ pub struct Simulation {
     /// When a user's event ends the run [s], and which.
     ended: Option<(f64, String)>,
     iterations: u64,
+    /// Impacts in whose cluster a point took part by `ε_touch` only.
+    touch_impacts: u64,
     grain: Grain,
 }
 
@@ -277,6 +279,7 @@ impl Simulation {
             work: Vec::new(),
             ended: None,
             iterations: 0,
+            touch_impacts: 0,
             grain: Grain::FINE,
         })
     }

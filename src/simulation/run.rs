@@ -359,6 +359,7 @@ impl Course<'_> {
         run.report.impacts =
             simulation.events.iter().filter(|e| matches!(e.kind, EventKind::Bounce | EventKind::Stick)).count() as u64;
         run.report.impact_iterations = simulation.iterations;
+        run.report.touch_impacts = simulation.touch_impacts;
         run.heat = simulation.heat;
         run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.work = simulation.work;

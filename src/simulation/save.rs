@@ -39,6 +39,7 @@ struct Saved {
     heat: Vec<Heat>,
     work: Vec<Heat>,
     iterations: u64,
+    touch_impacts: u64,
 }
 
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -102,6 +103,7 @@ impl Simulation {
             heat: self.heat.clone(),
             work: self.work.clone(),
             iterations: self.iterations,
+            touch_impacts: self.touch_impacts,
         };
         let path = path.as_ref();
         let text = serde_json::to_string(&saved).map_err(|error| file_error(path, &error))?;
@@ -148,6 +150,7 @@ impl Simulation {
         simulation.heat = saved.heat;
         simulation.work = saved.work;
         simulation.iterations = saved.iterations;
+        simulation.touch_impacts = saved.touch_impacts;
         Ok(simulation)
     }
 }
