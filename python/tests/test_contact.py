@@ -45,7 +45,10 @@ def test_a_box_is_carried_along_by_a_conveyor_that_starts_to_run():
     belt = bryla.Prescribed(velocity=(u, 0, 0), schedule=[(0.2, 1.0)])
     scene.add(bryla.Body("belt", bryla.Cuboid((20, 0.5, 0.1)), position=(0, 0, -0.1), friction=mu, motion=belt))
     scene.add(bryla.Body("box", bryla.Cuboid((0.1, 0.1, 0.1)), mass=m, position=(0, 0, 0.1), friction=mu))
-    assert "moved      belt: velocity (1, 0, 0) m/s, angular velocity (0, 0, 0) rad/s, times 1 from t = 0.2 s" in scene.explain()
+    assert (
+        "moved      belt: velocity (1, 0, 0) m/s, angular velocity (0, 0, 0) rad/s, times 1 from t = 0.2 s"
+        in scene.explain()
+    )
     run = scene.run((0, 1), tolerance=1e-6)
     slide = u / (mu * g)
     np.testing.assert_allclose(run["box"].position[-1], (0.5 * u * slide + u * (0.8 - slide), 0, 0.1), atol=1e-6)

@@ -86,19 +86,21 @@ impl Simulation {
         let (mut next, mut bodies, mut others) = (0, Vec::new(), Vec::new());
         while next < cluster.bodies.len() {
             self.parts_of(cluster.bodies[next], &mut bodies);
+            let unit = cluster.motions[next];
             next += 1;
             for &body in &bodies {
-                self.add_touching(&mut cluster, body, time, &mut others)?;
+                let center = self.part_motion(body, &unit).position;
+                self.add_touching(&mut cluster, (body, center), time, &mut others)?;
             }
         }
         Ok(cluster)
     }
 
-    /// Adds what touches a body of the scene.
+    /// Adds what touches a body of the scene, whose centre of mass is there.
     fn add_touching(
         &self,
         cluster: &mut Cluster,
-        body: usize,
+        (body, center): (usize, Vector3),
         time: Time,
         others: &mut Vec<usize>,
     ) -> Result<(), SimulationError> {
@@ -107,7 +109,6 @@ impl Simulation {
             return Ok(());
         }
         let radius = plan.bodies()[body].radius;
-        let center = self.motion_at(body, time).position;
         self.near.around(&Aabb::of_ball(&center, radius + self.reach_of(radius)), others);
         for &other in others.iter().filter(|&&other| self.may_meet(body, other)) {
             let pair = if plan.bodies()[other].fixed || other < body { [other, body] } else { [body, other] };

@@ -12,13 +12,14 @@ use super::answer::ContactScales;
 use super::cluster::{Cluster, in_words};
 use super::led::Led;
 use super::{Failure, Lane, Simulation, SimulationError};
+use crate::closest::ClosestFeatures;
 use crate::contact::stick::{Merged, merge, stick};
 use crate::contact::{Answer, Response};
 use crate::error::Result;
 use crate::freedom::Riding;
 use crate::freedom::riding::follow;
+use crate::math::Pose;
 use crate::math::sum::Time;
-use crate::math::{Pose, Vector3};
 use crate::plan::PlannedBody;
 use crate::state::BodyMotion;
 use crate::trajectory::{Event, EventKind, Phase, Trajectory};
@@ -28,9 +29,21 @@ pub(super) struct Stuck {
     /// Both bodies, as places in the scene: what it sticks to, and itself.
     bodies: [usize; 2],
     answer: Answer,
-    point: Vector3,
-    normal: Vector3,
-    features: String,
+    closest: ClosestFeatures,
+}
+
+/// The closest features seen from the other body.
+fn swapped(closest: &ClosestFeatures) -> ClosestFeatures {
+    ClosestFeatures {
+        point_a: closest.point_b,
+        point_b: closest.point_a,
+        normal: -closest.normal,
+        feature_a: closest.feature_b,
+        feature_b: closest.feature_a,
+        part_a: closest.part_b,
+        part_b: closest.part_a,
+        ..*closest
+    }
 }
 
 impl Simulation {
@@ -99,10 +112,9 @@ impl Simulation {
         let mut stuck = Vec::new();
         for touching in &cluster.touching {
             let [a, b] = touching.bodies;
-            let closest = &touching.closest;
-            let (bodies, point, normal) = match [a, b].map(|i| self.is_anchored(i)) {
-                [true, false] => ([a, b], closest.point_b, closest.normal),
-                [false, true] => ([b, a], closest.point_a, -closest.normal),
+            let (bodies, closest) = match [a, b].map(|i| self.is_anchored(i)) {
+                [true, false] => ([a, b], touching.closest),
+                [false, true] => ([b, a], swapped(&touching.closest)),
                 _ => continue,
             };
             let unit = self.unit(bodies[1]);
@@ -110,7 +122,7 @@ impl Simulation {
                 && let Some(place) = cluster.place(unit)
             {
                 let answer = stick(&mut cluster.motions[place]);
-                stuck.push(Stuck { bodies, answer, point, normal, features: in_words(closest) });
+                stuck.push(Stuck { bodies, answer, closest });
                 self.stuck.push(unit);
             }
         }
@@ -126,14 +138,14 @@ impl Simulation {
         time: Time,
         iterations: u32,
     ) {
-        for Stuck { bodies, answer, point, normal, features } in stuck {
+        for Stuck { bodies, answer, closest } in stuck {
             let Some([was_a, was_b]) = self.motions_of(cluster, bodies, before) else { continue };
             let Some([a, b]) = self.motions_of(cluster, bodies, &cluster.motions) else { continue };
             self.events.push(Event {
-                point,
-                normal,
+                point: closest.point_b,
+                normal: closest.normal,
                 impulse: answer.impulse,
-                features,
+                features: in_words(&closest),
                 iterations,
                 energy_lost: answer.energy_lost,
                 ..Event::between(time.value, EventKind::Stick, bodies, [&was_a, &a], [&was_b, &b])
