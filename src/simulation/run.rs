@@ -180,8 +180,8 @@ impl Plan {
 
             // what coarse steps broke, finer ones may mend; where the finest break, the rounds before have told
             if failure.is_some() {
-                let next = pace.finer(self.method(), tolerance, f64::INFINITY);
-                let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
+                let next = pace.finer(self.order(), tolerance, f64::INFINITY);
+                let steps = run.report.counts.steps as f64 * pace.longer(self.order(), &next);
                 match best {
                     Some(best) => return Ok(best),
                     None if pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS => {
@@ -372,7 +372,7 @@ impl Course<'_> {
                 broken = Some(error);
             }
         }
-        for lane in 0..lanes {
+        for lane in 0..simulation.lanes.len() {
             // a step that was still open where a run ends is known up to there
             if let Err(error) = simulation.finish_step(lane, &mut Some(&mut run)) {
                 if broken.as_ref().is_none_or(|other| error.time < other.time) {
@@ -381,18 +381,18 @@ impl Course<'_> {
                 continue;
             }
             let to = until(&simulation, &broken);
-            let lane = &mut simulation.lanes[lane];
-            let mut motions = lane.motions.clone();
-            lane.flight.at(lane.flight.front(), &mut motions);
-            run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
+            simulation.record_rest(lane, &mut run, to);
         }
 
         run.report.counts = simulation.counts();
         run.report.impacts =
             simulation.events.iter().filter(|e| matches!(e.kind, EventKind::Bounce | EventKind::Stick)).count() as u64;
         run.report.impact_iterations = simulation.iterations;
+        run.report.touch_impacts = simulation.touch_impacts;
         run.heat = simulation.heat;
         run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
+        run.work = simulation.work;
+        run.work.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
         // an event that ends the run goes before what broke off behind it
@@ -401,7 +401,7 @@ impl Course<'_> {
             None => {
                 run.end = span.end;
                 run.close(early);
-                Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
+                Ok((run, simulation.lanes[..lanes].iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
             }
             Some(error) => {
                 run.events.retain(|event| event.time <= error.time);
