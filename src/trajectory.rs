@@ -370,9 +370,14 @@ impl Trajectory {
     /// Cuts the samples that come after `end` [s], where a run broke off.
     pub(crate) fn cut(&mut self, end: f64) {
         self.end = end;
+        let bodies = self.plan.bodies().len();
+        let is_finite =
+            |sample: usize| self.states[sample * bodies..(sample + 1) * bodies].iter().all(BodyState::is_finite);
         let kept = self.times.partition_point(|&t| t <= end);
+        // of a step that broke off, a sample may be no number
+        let kept = (0..kept).find(|&sample| !is_finite(sample)).unwrap_or(kept);
         self.times.truncate(kept);
-        self.states.truncate(kept * self.plan.bodies().len());
+        self.states.truncate(kept * bodies);
     }
 
     /// Ends the run where an event did, at `end` [s], with a sample there; or leaves it as it is.

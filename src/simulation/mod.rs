@@ -197,24 +197,43 @@ pub struct Simulation {
     grain: Grain,
 }
 
-/// How finely a pass looks at contacts: passes that differ in it show what hangs on it.
+/// What a pass may do coarsely: passes that differ in it show what hangs on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grain {
-    /// ε, in that of the options [-].
+    /// ε of contacts, in that of the options [-].
     eps: f64,
     /// Steps of contacts that last, in their own [-].
     step: f64,
+    /// By how much the numbers at the start of what meets nothing are off, as a part of each [-]: as the roundings that
+    /// all passes have in common, such as those of moments of inertia, a motion may magnify them.
+    nudge: f64,
 }
+
+/// What the numbers at the start may be off by in the coarser of two passes [-].
+const NUDGE: f64 = 4.0 * f64::EPSILON;
 
 impl Grain {
     /// What the options say.
-    const FINE: Self = Self { eps: 1.0, step: 1.0 };
+    const FINE: Self = Self { eps: 1.0, step: 1.0, nudge: 0.0 };
 
     /// So many times coarser.
     fn times(times: f64) -> Self {
-        Self { eps: times, step: times }
+        Self { eps: times, step: times, nudge: (times - 1.0) * NUDGE }
     }
 }
+
+/// Moves each number of a motion by up to a `part` of itself, in a pattern without a rhythm, so that nothing cancels.
+fn nudge(chart: &Chart, motion: &mut BodyMotion, part: f64) {
+    let mut y = vec![0.0; chart.dimension()];
+    chart.encode(&motion.state(), &mut y);
+    for (i, y) in y.iter_mut().enumerate() {
+        *y *= 1.0 + part * (2.0 * (i as f64 * GOLDEN).fract() - 1.0);
+    }
+    chart.decode(&y, motion);
+}
+
+/// The golden section, whose multiples spread evenly over a unit [-].
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Plan {
     /// Starts the scene at time `t` [s], to be advanced by hand.
@@ -236,17 +255,21 @@ impl Plan {
             Arc::new(self.clone()),
             Span { start: t, end: f64::INFINITY },
             self.controls(&Control::Step(step)),
+            Grain::FINE,
         )
     }
 }
 
 impl Simulation {
-    fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>) -> Result<Self> {
+    fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>, grain: Grain) -> Result<Self> {
         let mut lanes = Vec::new();
         for (group, spec) in plan.groups().iter().enumerate() {
-            let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
             let charts = plan.charts(group, &[])?;
+            let mut motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
+            if grain.nudge > 0.0 && !spec.meets {
+                charts.iter().zip(&mut motions).for_each(|(chart, motion)| nudge(chart, motion, grain.nudge));
+            }
+            let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
             let switched = plan.switched(spec, span.start)?;
             let lane = Lane::new(group, spec.clone(), flight, charts, motions, span.start);
             lanes.push(Lane { switched, phase: group, ..lane });
@@ -280,7 +303,7 @@ impl Simulation {
             ended: None,
             iterations: 0,
             touch_impacts: 0,
-            grain: Grain::FINE,
+            grain,
         })
     }
 

@@ -148,7 +148,7 @@ impl Plan {
         let course = Course { plan: Arc::new(self.clone()), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(self, span, tolerance);
-        let (began, mut mismatches) = (thread_seconds(), 0);
+        let (began, mut mismatches, mut best) = (thread_seconds(), 0, None::<Trajectory>);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
             let (mut run, nodes) = course.attempt(
@@ -171,6 +171,20 @@ impl Plan {
             }
             if closed || !estimates {
                 return finish(run, span, tolerance, &pace, failure);
+            }
+
+            // what coarse steps broke, finer ones may mend; where the finest break, the rounds before have told
+            if failure.is_some() {
+                let next = pace.finer(self.method(), tolerance, f64::INFINITY);
+                let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
+                match best {
+                    Some(best) => return Ok(best),
+                    None if pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS => {
+                        return finish(run, span, tolerance, &pace, failure);
+                    }
+                    None => pace = next,
+                }
+                continue;
             }
 
             // the same steps, each cut in two, and in four
@@ -200,14 +214,25 @@ impl Plan {
             let differs = comparison.worst.is_infinite() && has_impacts(&run);
             mismatches += u32::from(differs);
             let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
-            if comparison.worst <= tolerance || is_last {
-                return finish(run, span, tolerance, &pace, failure).map(|mut run| {
+            let length = run.report.length_scale;
+            match finish(run, span, tolerance, &pace, failure) {
+                Ok(mut run) => {
                     run.report.horizon = comparison.horizon;
-                    run
-                });
+                    if comparison.worst <= tolerance {
+                        return Ok(run);
+                    }
+                    if best.as_ref().is_none_or(|best| best.report.horizon <= run.report.horizon) {
+                        best = Some(run);
+                    }
+                }
+                Err(error) if is_last && best.is_none() => return Err(error),
+                Err(_) => {}
+            }
+            if let Some(best) = best.take_if(|_| is_last) {
+                return Ok(best);
             }
             pace = next;
-            pace.measure_by(run.report.length_scale);
+            pace.measure_by(length);
         }
         Err(Error::refused("run", "no pass was made").into())
     }
@@ -301,8 +326,7 @@ impl Course<'_> {
             kind: Failure::Refused(error.to_string()),
             trajectory: None,
         };
-        let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
-        simulation.grain = grain;
+        let mut simulation = Simulation::new(plan.clone(), span, controls, grain).map_err(refused)?;
         let lanes = simulation.lanes.len();
         let mut run = Trajectory::new(plan.clone(), times.to_vec());
         for (group, spec) in plan.groups().iter().enumerate() {
@@ -428,13 +452,13 @@ impl Pace {
         Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
     }
 
-    /// How finely a pass looks at contacts, `times` as coarse as the finest of a round.
+    /// What a pass does coarsely, `times` as much as the finest of a round.
     fn grain(&self, times: f64) -> Grain {
         let step = match &self.control {
             Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(2.0),
             Control::Step(_) | Control::Mesh(_) => 1.0,
         };
-        Grain { eps: times, step: 0.25 * times * step }
+        Grain { step: 0.25 * times * step, ..Grain::times(times) }
     }
 
     /// What should meet the tolerance, where this pace left an estimate.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::lasting::Together;
 use super::led::Led;
 use super::near::{Due, Window};
-use super::{Lane, Simulation};
+use super::{Grain, Lane, Simulation};
 use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
@@ -124,7 +124,7 @@ impl Simulation {
         let plan = Arc::new(saved.scene.compile(&saved.options)?);
         let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
         let span = Span { start: saved.time, end: f64::INFINITY };
-        let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)))?;
+        let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)), Grain::FINE)?;
         let belongs = || file_error(path, &"its state does not belong to its scene");
         for parts in saved.compounds {
             if parts.len() < 2 || parts.iter().any(|(body, _)| plan.bodies().get(*body).is_none_or(|body| body.fixed)) {
