@@ -1083,6 +1083,51 @@ class Axle:
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
+class Prescribed:
+    """A motion that nothing disturbs: a turntable, a conveyor, a bat.
+
+    The body point center moves with velocity, the body turns about it with angular_velocity, both times a factor
+    that is constant between the times of the schedule. Position and orientation of the body are those at time 0.
+
+    Parameters
+    ----------
+    velocity : 3 numbers
+        Velocity of the point center, world axes [m/s].
+    angular_velocity : 3 numbers
+        Angular velocity, world axes [rad/s].
+    center : 3 numbers
+        The point that the body turns about, shape axes [m].
+    schedule : list of (time, factor), optional
+        Factor of both velocities: 0 before the first time [s], held after the last; 1 always, if absent.
+    """
+
+    def __new__(
+        cls,
+        *,
+        velocity: _Numbers = (0.0, 0.0, 0.0),
+        angular_velocity: _Numbers = (0.0, 0.0, 0.0),
+        center: _Numbers = (0.0, 0.0, 0.0),
+        schedule: _Rows | None = None,
+    ) -> Prescribed: ...
+    @property
+    def velocity(self) -> _Vector:
+        """Velocity of the point center, world axes [m/s]."""
+
+    @property
+    def angular_velocity(self) -> _Vector:
+        """Angular velocity, world axes [rad/s]."""
+
+    @property
+    def center(self) -> _Vector:
+        """The point that the body turns about, shape axes [m]."""
+
+    @property
+    def schedule(self) -> list[tuple[float, float]] | None:
+        """Factor of both velocities: (time [s], factor), or None."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
 class Body:
     """One body: shape, mass, start and material. SI units, angles in radians.
 
@@ -1120,6 +1165,8 @@ class Body:
         What happens when it touches another body.
     fixed : bool
         Whether it stays where it is.
+    motion : Prescribed, optional
+        The motion that it is moved along, whatever it meets.
     freedom : "free", Planar, Pivot or Axle
         How it may move.
     collides : bool
@@ -1144,6 +1191,7 @@ class Body:
         restitution: _Number = 0.0,
         response: _Response = "bounce",
         fixed: bool = False,
+        motion: Prescribed | None = None,
         freedom: _Freedom = "free",
         collides: bool = True,
     ) -> Body: ...
@@ -1206,6 +1254,10 @@ class Body:
     @property
     def fixed(self) -> bool:
         """Whether it stays where it is."""
+
+    @property
+    def motion(self) -> Prescribed | None:
+        """The motion that it is moved along, or None."""
 
     @property
     def freedom(self) -> _Freedom:
@@ -1862,6 +1914,14 @@ class Report:
     @property
     def impact_iterations(self) -> int:
         """Rounds of the finder, over all impacts."""
+
+    @property
+    def touch_impacts(self) -> int:
+        """Instants of impact at which a point took a blow only because its gap was below the touch gap.
+
+        A landing that is flat to that angle, bodies that are hit together: with another touch gap, 1e-9 of the size,
+        they come out differently.
+        """
 
     @property
     def seconds(self) -> Seconds:

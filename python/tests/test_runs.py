@@ -1,5 +1,6 @@
 """Runs, their trajectories and what can be asked of them."""
 
+import itertools
 import pickle
 import subprocess
 import sys
@@ -419,7 +420,7 @@ def test_the_order_of_power_series_and_of_the_discrete_rotation_can_be_asked_for
     # a step of 0.04 s turns the book by 0.24 rad: each order takes an order of magnitude
     for method in ["taylor", "dmv"]:
         errors = [error(method=method, order=order, step=0.04) for order in (4, 6, 8, 10)]
-        assert all(b < 0.2 * a for a, b in zip(errors, errors[1:], strict=False)), errors
+        assert all(b < 0.2 * a for a, b in itertools.pairwise(errors)), errors
     assert error(method="taylor", tolerance=1e-10) < 1e-10
     with pytest.raises(bryla.Error, match="an order needs the method taylor or dmv"):
         error(method="rk4", order=4, step=0.04)

@@ -22,8 +22,12 @@ mod free;
 mod moser_veselov;
 mod pivot;
 mod planar;
+pub mod prescribed;
+pub(crate) mod riding;
 pub(crate) mod spin;
 
+pub use prescribed::Prescribed;
+pub use riding::Riding;
 pub(crate) use spin::Spin;
 pub use spin::{Form, RotationSplit};
 
@@ -125,9 +129,11 @@ pub enum Chart {
     Axle(axle::Axle),
     /// None: the body rests.
     Fixed,
+    /// None: the body is part of a compound.
+    Riding(Riding),
 }
 
-/// Calls the variant's own method; a fixed body has nothing to integrate.
+/// Calls the variant's own method; a body that rests, or rides, has nothing to integrate.
 macro_rules! dispatch {
     ($chart:expr, $inner:ident => $call:expr, $fixed:expr) => {
         match $chart {
@@ -135,7 +141,7 @@ macro_rules! dispatch {
             Chart::Planar($inner) => $call,
             Chart::Pivot($inner) => $call,
             Chart::Axle($inner) => $call,
-            Chart::Fixed => $fixed,
+            Chart::Fixed | Chart::Riding(_) => $fixed,
         }
     };
 }
@@ -188,7 +194,7 @@ impl Chart {
                 self.decode(y, motion);
                 self.rate(y, motion, load, dy);
             }
-            Self::Fixed => {}
+            Self::Fixed | Self::Riding(_) => {}
         }
     }
 
@@ -215,7 +221,7 @@ impl Chart {
                     (*y, *rest) = two_sum(*y, h * dy + *rest);
                 }
             }
-            Self::Fixed => {}
+            Self::Fixed | Self::Riding(_) => {}
         }
     }
 
@@ -225,7 +231,7 @@ impl Chart {
         match self {
             Self::Free(c) => Some((at + 6..at + self.dimension(), c.spin())),
             Self::Pivot(c) => Some((at..at + self.dimension(), c.spin())),
-            Self::Planar(_) | Self::Axle(_) | Self::Fixed => None,
+            Self::Planar(_) | Self::Axle(_) | Self::Fixed | Self::Riding(_) => None,
         }
     }
 
@@ -265,10 +271,11 @@ impl Chart {
         dispatch!(self, c => c.error_size(y0, y1, e, scales), 0.0)
     }
 
-    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m].
+    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m]; nothing of a
+    /// part, which its compound holds, not its freedom.
     pub fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {
         match self {
-            Self::Free(_) => Load::zero(),
+            Self::Free(_) | Self::Riding(_) => Load::zero(),
             Self::Planar(c) => c.reaction(motion, load),
             Self::Pivot(c) => c.reaction(motion, load),
             Self::Axle(c) => c.reaction(motion, load),

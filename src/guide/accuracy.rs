@@ -216,6 +216,9 @@
 //! sees how the differences fall, and trusts no more than that. In closed form nothing but rounding is left:
 //! 4 ε for every radian turned.
 //!
+//! All runs round the moments of inertia and the start alike, and an unstable motion magnifies that: where bodies meet
+//! nothing, the coarser runs start with numbers that are a few ε off, so that their differences show it.
+//!
 //! A second measure costs no run: the energy audit of
 //! [`Trajectory::energy`](crate::trajectory::Trajectory::energy). Kinetic + potential + dissipated − work should stay;
 //! [`Energy::drift`](crate::trajectory::Energy::drift) is how far it went. It knows nothing of errors that keep the
@@ -237,8 +240,9 @@
 //! - `seconds`, apart for the run whose result is kept and for those it was compared with.
 //!
 //! A tolerance below what rounding leaves is refused before the first step: `64 ε` for the positions and for
-//! every radian that the fastest body would turn at its starting rate. The search gives up, with `met = false`, where the next run would need more
-//! than 2e7 steps, and after 24 rounds of three.
+//! every radian that the fastest body would turn at its starting rate. The search gives up, with `met = false`, where
+//! the next run would need more than 2e7 steps, and after 24 rounds of three; of the rounds so far, the one with the
+//! farthest horizon is the result.
 //!
 //! # Comparing
 //!

@@ -1,6 +1,7 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
 use super::{Binding, series};
+use crate::freedom::riding::{follow, gather};
 use crate::freedom::{Chart, Form, RotationSplit, Scales};
 use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector, of_order};
 use crate::math::series::Tape;
@@ -214,6 +215,8 @@ pub struct Group<K> {
     shown_loads: Vec<Load>,
     is_loaded: bool,
     depends_on_velocity: bool,
+    /// Whether the first of the bodies is a compound of others.
+    has_parts: bool,
     kind: std::marker::PhantomData<fn() -> K>,
 }
 
@@ -222,12 +225,15 @@ impl<K: Kind> Group<K> {
     pub(crate) fn new(charts: Vec<Chart>, motions: Vec<BodyMotion>, bindings: Vec<Binding>) -> Self {
         let n = motions.len();
         let is_loaded = !bindings.is_empty();
+        // a constant load on a part turns its compound with a lever that turns
+        let has_parts = charts.iter().any(|chart| matches!(chart, Chart::Riding(_)));
         let (constant, changing): (Vec<_>, Vec<_>) =
-            bindings.into_iter().partition(|binding| binding.effect.as_effect().is_constant());
+            bindings.into_iter().partition(|binding| !has_parts && binding.effect.as_effect().is_constant());
         let depends_on_velocity = changing.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
         let mut group = Self {
             is_loaded,
             depends_on_velocity,
+            has_parts,
             charts,
             bindings: constant,
             off: Vec::new(),
@@ -247,11 +253,12 @@ impl<K: Kind> Group<K> {
     /// Reads the motion of every body from the numbers.
     fn decode_into(charts: &[Chart], y: &[f64], motions: &mut [BodyMotion]) {
         let mut at = 0;
-        for (chart, motion) in K::narrow(charts).iter().zip(motions) {
+        for (chart, motion) in K::narrow(charts).iter().zip(&mut *motions) {
             let n = chart.dimension();
             chart.decode(&y[at..at + n], motion);
             at += n;
         }
+        follow(K::narrow(charts), motions);
     }
 
     /// What holds each body in its freedom, the motions being as they were given.
@@ -276,6 +283,9 @@ impl<K: Kind> Group<K> {
         }
         Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
         self.add_loads(at);
+        if self.has_parts {
+            gather(&self.charts, &self.motions, &mut self.loads);
+        }
         let (y, dy) = (y.as_ref(), dy.as_mut());
         let mut at = 0;
         for ((chart, motion), load) in K::narrow(&self.charts).iter().zip(&self.motions).zip(&self.loads) {

@@ -1,6 +1,6 @@
 //! Which method a flight group gets, and the closed form where there is one.
 
-use super::{Binding, FlightGroup, Plan, PlannedBody, series};
+use super::{Binding, FlightGroup, PlannedBody, series};
 use crate::effect::{AnyEffect, Frame};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom};
@@ -137,7 +137,7 @@ impl FlightGroup {
     }
 
     /// What acts on the translation of a member, where it has a closed form.
-    fn pull(&self, place: usize, mass: f64) -> Pull {
+    pub(super) fn pull(&self, place: usize, mass: f64) -> Pull {
         let (mut acceleration, mut drag, mut carried) = (Vector3::zeros(), 0.0, Vector3::zeros());
         for binding in self.bindings.iter().filter(|binding| binding.members.contains(&place)) {
             match binding.effect.as_ref() {
@@ -152,15 +152,14 @@ impl FlightGroup {
         let wind = if drag > 0.0 { carried / drag } else { Vector3::zeros() };
         Pull { acceleration, drag, wind }
     }
-}
 
-impl Plan {
-    /// The closed motions of a group's bodies from these motions on.
-    pub(super) fn starts(&self, group: usize, charts: &[Chart], motions: &[BodyMotion]) -> Vec<Start> {
-        let spec = &self.groups[group];
+    /// The closed motions of the group's bodies from these motions on.
+    pub(super) fn starts(&self, charts: &[Chart], motions: &[BodyMotion]) -> Vec<Start> {
+        // what pulls at a compound pulls at every part alike
+        let part = charts.iter().position(|chart| matches!(chart, Chart::Riding(_)));
         let start = |(place, (chart, motion)): (usize, (&Chart, &BodyMotion))| match chart {
-            Chart::Fixed => Start::Fixed,
-            Chart::Free(_) => Start::Free { motion: *motion, pull: spec.pull(place, motion.mass) },
+            Chart::Fixed | Chart::Riding(_) => Start::Fixed,
+            Chart::Free(_) => Start::Free { motion: *motion, pull: self.pull(part.unwrap_or(place), motion.mass) },
             Chart::Pivot(pivot) => {
                 let mut y = [0.0; 7];
                 chart.encode(&motion.state(), &mut y);
@@ -172,7 +171,7 @@ impl Plan {
                 let zeros = vec![0.0; chart.dimension()];
                 let (mut y, mut slope, mut bend) = (zeros.clone(), zeros.clone(), zeros);
                 chart.encode(&motion.state(), &mut y);
-                let force = motion.mass * spec.pull(place, motion.mass).acceleration;
+                let force = motion.mass * self.pull(place, motion.mass).acceleration;
                 let load = Load { force, torque: Vector3::zeros() };
                 chart.rate(&y, motion, &load, &mut slope);
                 chart.rate_unloaded(&slope, &mut bend);

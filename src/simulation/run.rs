@@ -152,12 +152,13 @@ impl Plan {
         let course = Course { plan: self.clone(), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(self, span, tolerance);
-        let (began, mut mismatches) = (thread_seconds(), 0);
+        let (began, mut mismatches, mut best) = (thread_seconds(), 0, None::<Trajectory>);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
+            let grain = pace.grain(4.0);
             let (mut run, nodes) = course.attempt(
                 self.controls(&pace.control),
-                pace.grain(4.0),
+                if estimates { grain } else { Grain { nudge: 0.0, ..grain } },
                 3 * number + 1,
                 observer,
                 &mut failure,
@@ -175,6 +176,20 @@ impl Plan {
             }
             if closed || !estimates {
                 return finish(run, span, tolerance, &pace, failure);
+            }
+
+            // what coarse steps broke, finer ones may mend; where the finest break, the rounds before have told
+            if failure.is_some() {
+                let next = pace.finer(self.order(), tolerance, f64::INFINITY);
+                let steps = run.report.counts.steps as f64 * pace.longer(self.order(), &next);
+                match best {
+                    Some(best) => return Ok(best),
+                    None if pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS => {
+                        return finish(run, span, tolerance, &pace, failure);
+                    }
+                    None => pace = next,
+                }
+                continue;
             }
 
             // the same steps, each cut in two, and in four
@@ -203,14 +218,25 @@ impl Plan {
             let differs = comparison.worst.is_infinite() && has_impacts(&run);
             mismatches += u32::from(differs);
             let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
-            if comparison.worst <= tolerance || is_last {
-                return finish(run, span, tolerance, &pace, failure).map(|mut run| {
+            let length = run.report.length_scale;
+            match finish(run, span, tolerance, &pace, failure) {
+                Ok(mut run) => {
                     run.report.horizon = comparison.horizon;
-                    run
-                });
+                    if comparison.worst <= tolerance {
+                        return Ok(run);
+                    }
+                    if best.as_ref().is_none_or(|best| best.report.horizon <= run.report.horizon) {
+                        best = Some(run);
+                    }
+                }
+                Err(error) if is_last && best.is_none() => return Err(error),
+                Err(_) => {}
+            }
+            if let Some(best) = best.take_if(|_| is_last) {
+                return Ok(best);
             }
             pace = next;
-            pace.measure_by(run.report.length_scale);
+            pace.measure_by(length);
         }
         Err(Error::refused("run", "no pass was made").into())
     }
@@ -304,8 +330,7 @@ impl Course<'_> {
             kind: Failure::Refused(error.to_string()),
             trajectory: None,
         };
-        let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
-        simulation.grain = grain;
+        let mut simulation = Simulation::new(plan.clone(), span, controls, grain).map_err(refused)?;
         let lanes = simulation.lanes.len();
         let mut run = Trajectory::new(plan.clone(), times.to_vec());
         for (group, spec) in plan.groups().iter().enumerate() {
@@ -346,7 +371,7 @@ impl Course<'_> {
                 broken = Some(error);
             }
         }
-        for lane in 0..lanes {
+        for lane in 0..simulation.lanes.len() {
             // a step that was still open where a run ends is known up to there
             if let Err(error) = simulation.finish_step(lane, &mut Some(&mut run)) {
                 if broken.as_ref().is_none_or(|other| error.time < other.time) {
@@ -355,18 +380,18 @@ impl Course<'_> {
                 continue;
             }
             let to = until(&simulation, &broken);
-            let lane = &mut simulation.lanes[lane];
-            let mut motions = lane.motions.clone();
-            lane.flight.at(lane.flight.front(), &mut motions);
-            run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
+            simulation.record_rest(lane, &mut run, to);
         }
 
         run.report.counts = simulation.counts();
         run.report.impacts =
             simulation.events.iter().filter(|e| matches!(e.kind, EventKind::Bounce | EventKind::Stick)).count() as u64;
         run.report.impact_iterations = simulation.iterations;
+        run.report.touch_impacts = simulation.touch_impacts;
         run.heat = simulation.heat;
         run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
+        run.work = simulation.work;
+        run.work.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
         // an event that ends the run goes before what broke off behind it
@@ -375,7 +400,7 @@ impl Course<'_> {
             None => {
                 run.end = span.end;
                 run.close(early);
-                Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
+                Ok((run, simulation.lanes[..lanes].iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
             }
             Some(error) => {
                 run.events.retain(|event| event.time <= error.time);
@@ -433,13 +458,13 @@ impl Pace {
         Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
     }
 
-    /// How finely a pass looks at contacts, `times` as coarse as the finest of a round.
+    /// What a pass does coarsely, `times` as much as the finest of a round.
     fn grain(&self, times: f64) -> Grain {
         let step = match &self.control {
             Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(2.0),
             Control::Step(_) | Control::Mesh(_) => 1.0,
         };
-        Grain { eps: times, step: 0.25 * times * step }
+        Grain { step: 0.25 * times * step, ..Grain::times(times) }
     }
 
     /// What should meet the tolerance, where this pace left an estimate.

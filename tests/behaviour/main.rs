@@ -13,9 +13,11 @@ mod freedoms;
 mod impacts;
 mod layers;
 mod order;
+mod prescribed;
 mod promises;
 mod rest;
 mod series;
+mod sticking;
 mod switching;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};
