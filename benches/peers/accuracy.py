@@ -70,20 +70,22 @@ def bryla_scene(problem: Problem) -> bryla.Scene:
     return scene
 
 
-def bryla_with(scene: bryla.Scene, method: str) -> Solver:
+def bryla_with(scene: bryla.Scene, method: str, **order: int) -> Solver:
     """A method of bryla with that many steps; the error is not estimated."""
+    options = {"method": method, "estimate": False, "record": "end", **order}
 
     def orientation(steps: float) -> np.ndarray:
-        return scene.run((0.0, END), method=method, step=END / steps, estimate=False, record="end").orientation[-1, 0]
+        return scene.run((0.0, END), step=END / steps, **options).orientation[-1, 0]
 
     return orientation
 
 
-def bryla_to(scene: bryla.Scene, estimate: bool) -> Solver:
-    """What bryla chooses itself for a tolerance."""
+def bryla_to(scene: bryla.Scene, estimate: bool, method: str | None = None) -> Solver:
+    """What bryla chooses itself for a tolerance, or a method that controls its error."""
 
     def orientation(tolerance: float) -> np.ndarray:
-        return scene.run((0.0, END), tolerance=tolerance, estimate=estimate, record="end").orientation[-1, 0]
+        run = scene.run((0.0, END), tolerance=tolerance, method=method, estimate=estimate, record="end")
+        return run.orientation[-1, 0]
 
     return orientation
 
@@ -250,7 +252,9 @@ def compare(problem: Problem) -> None:
         *(Contestant(name, *knob, solver) for name, knob, solver in zip(PEERS, knobs, solvers, strict=True)),
         Contestant("bryla, rk4", "steps", STEPS, bryla_with(scene, "rk4")),
         Contestant("bryla, dop853", "steps", STEPS, bryla_with(scene, "dop853")),
+        Contestant("bryla, taylor of order 20", "steps", STEPS, bryla_with(scene, "taylor", order=20)),
         Contestant("bryla, split8", "steps", STEPS, bryla_with(scene, "split8")),
+        Contestant("bryla, taylor", "tolerance", TOLERANCES, bryla_to(scene, estimate=False, method="taylor")),
         Contestant("bryla, its own choice", "tolerance", None, bryla_to(scene, estimate=False)),
         Contestant("the same, error estimated", "tolerance", None, bryla_to(scene, estimate=True)),
     ]

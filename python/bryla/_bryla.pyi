@@ -36,6 +36,8 @@ _Method: TypeAlias = Literal[
     "cf4",
     "buss2",
     "radau5",
+    "taylor",
+    "dmv",
     "exact",
 ]
 _Response: TypeAlias = Literal["bounce", "stick"]
@@ -1367,6 +1369,7 @@ class Scene:
         *,
         tolerance: _Number | None = None,
         method: _Method | None = None,
+        order: int | None = None,
         step: _Number | None = None,
         t_eval: _Numbers | None = None,
         estimate: bool | None = None,
@@ -1390,6 +1393,7 @@ class Scene:
         *,
         tolerance: _Number | None = None,
         method: _Method | None = None,
+        order: int | None = None,
         step: _Number | None = None,
         t_eval: _Numbers | None = None,
         estimate: bool | None = None,
@@ -1419,6 +1423,9 @@ class Scene:
             Error that the result may have: of positions over length_scale, of orientations in radians [-].
         method : str, optional
             Method of integration, one of METHODS; "auto" (default) lets the plan choose.
+        order : int, optional
+            Order of the methods "taylor" (by default that which the tolerance calls for, 8 where the step is given)
+            and "dmv" (10).
         step : float, optional
             Length of a step [s].
         t_eval : array of float, optional
@@ -1466,6 +1473,7 @@ class Scene:
         steps: _Numbers | None = None,
         tolerances: _Numbers | None = None,
         repeats: int = 5,
+        order: int | None = None,
         length_scale: _Number | None = None,
         orientation: _Orientation | None = None,
         projection: bool | None = None,
@@ -1491,7 +1499,7 @@ class Scene:
             not estimated in these runs, which costs extra.
         repeats : int
             How often each run is timed; the least and the middle time are kept.
-        length_scale, orientation, projection, finder, eps, restitution_law
+        order, length_scale, orientation, projection, finder, eps, restitution_law
             As in run.
         progress : bool
             Whether a progress line is shown on a terminal.
@@ -1534,7 +1542,8 @@ class Plan:
 
     def predict(self, t_span: tuple[_Number, _Number] | None = None) -> tuple[float, float, float] | None:
         """Steps and time [s] that a run over a span is predicted to take: (steps, run, estimate), by the same
-        table as in explain; None where a function of the user has its own price.
+        table as in explain. Where a function of the user is called, some steps are taken to time them. None where
+        contacts cannot be foreseen, and where a step breaks off.
         """
 
     def __eq__(self, value: object, /) -> bool: ...

@@ -10,13 +10,16 @@
 //! A constraint removes coordinates instead of adding forces, so it cannot be violated. The forces
 //! it would need are worked out where they are asked for ([`Chart::reaction`]).
 
+use crate::effect::series::{SeriesBody, SeriesLoad};
 use crate::error::{Error, Result};
+use crate::math::series::Tape;
 use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Vector3};
 use crate::state::{BodyMotion, BodyState, Load};
 
 mod axle;
 mod free;
+mod moser_veselov;
 mod pivot;
 mod planar;
 pub mod prescribed;
@@ -249,6 +252,16 @@ impl Chart {
             Some((part, spin)) => spin.orientation_error(&y[part]),
             None => 0.0,
         }
+    }
+
+    /// The body on a tape, its numbers from `at` on; none if it rests. Methods of series integrate in body axes.
+    pub(crate) fn begin_series(&self, at: usize, motion: &BodyMotion, tape: &mut Tape) -> Option<SeriesBody> {
+        dispatch!(self, c => Some(c.begin_series(at, motion, tape)), None)
+    }
+
+    /// How its momenta change under a load, on a tape.
+    pub(crate) fn end_series(&self, body: &mut SeriesBody, load: SeriesLoad, tape: &mut Tape) {
+        dispatch!(self, c => c.end_series(body, load, tape), ());
     }
 
     /// Size of an error `e` of a step from `y0` to `y1` [-]: of the position over a length, of

@@ -1,7 +1,8 @@
 //! Orientation and angular momentum, in each of the forms the library compares.
 
-use super::Scales;
+use super::{Scales, moser_veselov};
 use crate::mass::MassProperties;
+use crate::math::series::{Attitude, Node, Tape};
 use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
 use crate::state::Load;
@@ -28,6 +29,8 @@ pub enum RotationSplit {
     Symmetric,
     /// Rotations about the three principal axes.
     Axes,
+    /// One rotation, right to this order.
+    MoserVeselov(u32),
 }
 
 /// Rotation about a point: orientation, then angular momentum about that point.
@@ -268,6 +271,25 @@ impl Spin {
         put(&mut dy[4..], &self.gaps.component_mul(&Vector3::new(b * c, c * a, a * b)));
     }
 
+    /// The rotation on a tape, its numbers from `at` on: attitude, angular momentum and angular velocity in principal
+    /// axes, and the matrix from these to body axes.
+    pub(super) fn begin_series(&self, at: usize, tape: &mut Tape) -> (Attitude, Node, Node, Matrix3) {
+        let momentum = tape.numbers(at + 4, 3);
+        let w = tape.stretched(momentum, self.inv_moments);
+        tape.turning(at, w);
+        let axes = self.axes.as_ref().map_or_else(Matrix3::identity, |(_, axes)| *axes);
+        (Attitude::Quaternion(at), momentum, w, axes)
+    }
+
+    /// Euler's equations on a tape: torque in principal axes.
+    pub(super) fn end_series(&self, momentum: Node, torque: Option<Node>, tape: &mut Tape) {
+        let mut rate = tape.gyration(momentum, self.inv_moments);
+        if let Some(torque) = torque {
+            rate = tape.sum(rate, 1.0, torque);
+        }
+        tape.integrate(momentum, rate);
+    }
+
     /// Advances the rotation without torque by `h`, principal axes; `rest` takes up what rounding drops.
     #[inline]
     pub(super) fn flow(&self, y: &mut [f64], rest: &mut [f64], h: f64, split: RotationSplit) {
@@ -280,6 +302,10 @@ impl Spin {
                 turn.about_axis(2, h * a[2]);
                 turn.about_axis(1, 0.5 * h * a[1]);
                 turn.about_axis(0, 0.5 * h * a[0]);
+            }
+            RotationSplit::MoserVeselov(order) => {
+                let (c, e) = moser_veselov::rotation(&vector(&turn.y[4..]), a, h, order);
+                turn.turn_all(c, &e);
             }
             RotationSplit::Symmetric => {
                 // i and j are the axes with the closest moments, k is the axis of the top
@@ -422,6 +448,16 @@ impl Turn<'_> {
         self.change(0, c * w - u.dot(v));
         for i in 0..3 {
             self.change(1 + i, by[i]);
+        }
+    }
+
+    /// The same, and L seen from the body turns the other way, `L ← L − 2 (1 + c) v × L + 2 v × (v × L)`.
+    fn turn_all(&mut self, c: f64, v: &Vector3) {
+        self.turn(c, v);
+        let across = v.cross(&vector(&self.y[4..]));
+        let by = 2.0 * (v.cross(&across) - (1.0 + c) * across);
+        for i in 0..3 {
+            self.change(4 + i, by[i]);
         }
     }
 

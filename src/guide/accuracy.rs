@@ -27,6 +27,8 @@
 //! | [`Cf4`](crate::integrator::Method::Cf4) | 4 | 4 | world axes | stays on the rotations without projection |
 //! | [`Buss2`](crate::integrator::Method::Buss2) | 2 | 2 | world axes | what games use |
 //! | [`Radau5`](crate::integrator::Method::Radau5) | 5 | 3 an iteration | body axes | stiff loads: strong drag does not dictate the step; what a plan takes where it would |
+//! | [`Taylor`](crate::integrator::Method::Taylor) | 3 to 40 | 1 series | body axes | loads that are power series: gravity, engines, wrenches, drag in proportion to the speed |
+//! | [`Dmv`](crate::integrator::Method::Dmv) | 2 to 10 | 1 equation | body axes | long runs without torque: keeps `L`'s length and the energy |
 //! | [`Exact`](crate::integrator::Method::Exact) | – | 0 | – | free bodies, uniform gravity, linear drag: what a plan takes where it can |
 //!
 //! Order p: half the step, 2ᵖ times less error. An evaluation is one of `Y′` with all loads; the slope at
@@ -159,7 +161,7 @@
 //!
 //! The motion within a step is one polynomial ([`Segment`](crate::integrator::Segment)), with orientations
 //! normalised where they are read: the cubic through both ends and their slopes (off by h⁴), in `Tsit5` and
-//! `Dop853` their own of order 4 and 7, in the closed form the motion itself. Samples, energies and contacts all
+//! `Dop853` their own of order 4 and 7, in `Taylor` the series of the step, in the closed form the motion itself. Samples, energies and contacts all
 //! read that one, so they agree with each other. It is made only of steps that someone looks into.
 //!
 //! # What costs order

@@ -380,6 +380,7 @@
 //! | `t_span` | s | the call says it | start and end |
 //! | `tolerance` | – | 1e-6, or none beside a step | error that the result may have: positions over `length_scale`, orientations in rad |
 //! | `method` | | `"auto"` | `"auto"`, or the name of a [`Method`](crate::integrator::Method), such as `"heun"` or `"rk4"` |
+//! | `order` | | of `"taylor"` 8 beside a step, else that which the tolerance calls for; of `"dmv"` 10 | order of the methods `"taylor"` (3 to 40) and `"dmv"` (2, 4, 6, 8, 10) |
 //! | `step` | s | found for the tolerance | length of a step; needs a `method`, excludes a `tolerance` |
 //! | `t_eval` | s | 201 uniform times, the ends among them | times of the samples, rising, within the span |
 //! | `estimate` | | `true` | whether the error of a run with a step is estimated, by a second run |

@@ -15,12 +15,14 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::freedom::{Form, RotationSplit, Scales};
+use crate::math::series::Tape;
 use crate::math::sum::{Time, two_sum};
 use crate::state::{BodyMotion, Moment};
 
 mod axes2;
 mod buss2;
 mod cf4;
+pub(crate) mod dmv;
 mod dop853;
 mod euler;
 pub(crate) mod exact;
@@ -37,6 +39,7 @@ mod split6;
 mod split8;
 mod splitting;
 mod stepper;
+pub(crate) mod taylor;
 mod tsit5;
 
 pub use exact::{ClosedFlight, ClosedMotion};
@@ -230,6 +233,9 @@ pub trait Problem: Debug + Send {
     /// Leaves out the effects at these places of the scene, and no others; whether that is a change.
     fn leave_out(&mut self, effects: &[usize]) -> bool;
 
+    /// The recurrences of the motion's series to this order, as loads are from the moment on.
+    fn tape(&self, at: Moment, order: usize) -> Tape;
+
     /// What a user's function complained about, once.
     fn take_failure(&mut self) -> Option<String>;
 }
@@ -337,35 +343,45 @@ macro_rules! methods {
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         pub enum Method {
             $($(#[$doc])* $variant,)*
+            /// The power series of the motion, of any order, with error control; loads that are series too.
+            Taylor,
+            /// The preprocessed discrete Moser–Veselov method, order 4 to 10: keeps |L| and energy where no torque acts.
+            Dmv,
             /// The closed form, where there is one: no torque and no force but gravity and linear drag.
             Exact,
         }
 
         impl Method {
             /// Every method, in the order of the list.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Exact];
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Taylor, Self::Dmv, Self::Exact];
 
             /// The name that files, reports and Python use.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => stringify!($module),)*
+                    Self::Taylor => "taylor",
+                    Self::Dmv => "dmv",
                     Self::Exact => "exact",
                 }
             }
 
             /// Order of accuracy: halving the step divides the error by two to this power; 0 for the
-            /// closed form, which has no step.
+            /// closed form, which has no step, and for power series and `Dmv` that where none is asked for.
             pub fn order(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::ORDER,)*
+                    Self::Taylor => taylor::ORDER,
+                    Self::Dmv => dmv::ORDER,
                     Self::Exact => exact::ORDER,
                 }
             }
 
-            /// Evaluations of f in one step; of the implicit method in one iteration.
+            /// Evaluations of f in one step; of the implicit method in one iteration; a power series is one.
             pub fn evaluations(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
+                    Self::Taylor => taylor::EVALUATIONS,
+                    Self::Dmv => dmv::EVALUATIONS,
                     Self::Exact => 0,
                 }
             }
@@ -379,6 +395,8 @@ macro_rules! methods {
             pub fn in_body_axes(self) -> bool {
                 match self {
                     $(Self::$variant => $module::BODY_AXES,)*
+                    Self::Taylor => taylor::BODY_AXES,
+                    Self::Dmv => dmv::BODY_AXES,
                     Self::Exact => false,
                 }
             }
@@ -388,7 +406,7 @@ macro_rules! methods {
             pub fn has_short_steps(self) -> bool {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS <= 4 && $module::ERROR_ORDER == 0.0,)*
-                    Self::Exact => false,
+                    Self::Taylor | Self::Dmv | Self::Exact => false,
                 }
             }
 
@@ -397,12 +415,13 @@ macro_rules! methods {
             pub fn controls_error(self) -> bool {
                 match self {
                     $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
-                    Self::Exact => true,
+                    Self::Dmv => false,
+                    Self::Taylor | Self::Exact => true,
                 }
             }
 
-            /// The method on a problem; none for the closed form, and none for methods that the problem is
-            /// not written for.
+            /// The method on a problem; none for the closed form and for power series, which are made apart, and
+            /// none for methods that the problem is not written for.
             pub fn integrator<P: Problem + 'static>(
                 self,
                 problem: &P,
@@ -455,7 +474,38 @@ methods! {
     Radau5 => radau5,
 }
 
+/// The methods whose order can be asked for, on a problem: their work does not grow less where its kind is known.
+pub(crate) fn of_order<P: Problem + 'static>(
+    method: Method,
+    problem: &P,
+    order: u32,
+    control: Control,
+    projection: bool,
+) -> Option<Box<dyn Integrator<P>>> {
+    let n = problem.dimension();
+    match method {
+        Method::Taylor => Some(Box::new(taylor::Taylor::new(order, n, control, projection))),
+        Method::Dmv => {
+            let kernel = dmv::Kernel::of_order(n, order);
+            Some(Box::new(stepper::Stepper::with(kernel, n, control, projection)))
+        }
+        _ => None,
+    }
+}
+
 impl Method {
+    /// The orders that can be asked for, in words, and whether one of them was.
+    pub(crate) fn allows_order(self, order: u32) -> Option<(String, bool)> {
+        match self {
+            Self::Taylor => {
+                let (least, most) = (taylor::ORDERS.start(), taylor::ORDERS.end());
+                Some((format!("from {least} to {most}"), taylor::ORDERS.contains(&order)))
+            }
+            Self::Dmv => Some(("2, 4, 6, 8 or 10".to_owned(), dmv::ORDERS.contains(&order))),
+            _ => None,
+        }
+    }
+
     /// The form in which the method integrates orientation, for the form of orientation asked for.
     pub(crate) fn form(self, matrix: bool) -> Form {
         match (self.in_body_axes(), matrix && self != Self::Exact) {

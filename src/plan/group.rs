@@ -1,9 +1,10 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
-use super::Binding;
+use super::{Binding, series};
 use crate::freedom::riding::{follow, gather};
 use crate::freedom::{Chart, Form, RotationSplit, Scales};
-use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector};
+use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector, of_order};
+use crate::math::series::Tape;
 use crate::state::{BodyMotion, Load, Moment};
 use std::fmt::Debug;
 use std::ops::Range;
@@ -139,6 +140,9 @@ macro_rules! single {
         /// The flight by a method of bodies that start at `t` [s] with the numbers `y`; each kind of group has
         /// a step of its own.
         pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+            if matches!(method, Method::Taylor | Method::Dmv) {
+                return fly_to_order(bodies, method, course, t, y);
+            }
             match bodies.charts.as_slice() {
                 $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
                 _ => fly::<Any>(bodies, method, course, t, y),
@@ -173,6 +177,8 @@ pub(super) struct Bodies {
 pub(super) struct Course {
     pub(super) control: Control,
     pub(super) projection: bool,
+    /// Order of methods that take one.
+    pub(super) order: u32,
 }
 
 fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
@@ -180,6 +186,13 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
     debug_assert_eq!(problem.dimension(), y.len());
     let integrator = method.integrator(&problem, course.control, course.projection);
     Box::new(Integration::new(problem, integrator.expect("a method in the axes of the charts"), t, y))
+}
+
+/// The flight by a method whose order was asked for.
+fn fly_to_order(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+    let problem = Group::<Any>::new(bodies.charts, bodies.motions, bodies.bindings);
+    let integrator = of_order(method, &problem, course.order, course.control, course.projection);
+    Box::new(Integration::new(problem, integrator.expect("a method that takes an order"), t, y))
 }
 
 /// Bodies with their coordinates and what acts on them.
@@ -443,6 +456,10 @@ impl<K: Kind> Problem for Group<K> {
             self.off = effects.to_vec();
         }
         changes
+    }
+
+    fn tape(&self, at: Moment, order: usize) -> Tape {
+        series::tape(&self.charts, &self.motions, (&self.constant, &self.bindings, &self.off), at, order)
     }
 
     fn take_failure(&mut self) -> Option<String> {

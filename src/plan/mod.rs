@@ -12,7 +12,7 @@ use crate::contact::Material;
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom, Prescribed};
-use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method};
+use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method, taylor};
 use crate::mass::MassProperties;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
@@ -24,6 +24,7 @@ pub mod cost;
 mod explain;
 mod group;
 mod method;
+mod series;
 mod watch;
 
 pub(crate) use compound::Compound;
@@ -232,6 +233,29 @@ impl Plan {
         self.options.method.or(chosen).unwrap_or(Method::Exact)
     }
 
+    /// Order of the method, of several the least; 0 where all is closed form.
+    pub fn order(&self) -> u32 {
+        let groups = self.groups.iter().filter(|group| group.method != Method::Exact);
+        groups.map(|group| self.order_of(group.method)).min().unwrap_or(0)
+    }
+
+    /// Order of a method: the one asked for, of power series else that which the tolerance calls for.
+    fn order_of(&self, method: Method) -> u32 {
+        match (method, self.options.order, self.tolerance()) {
+            (Method::Taylor | Method::Dmv, Some(order), _) => order,
+            (Method::Taylor, None, Some(tolerance)) => taylor::order_for(tolerance, self.options.estimate),
+            _ => method.order(),
+        }
+    }
+
+    /// Work of a step of a method at its order, as a multiple of that at the order which costs are measured at [-].
+    pub(crate) fn effort(&self, method: Method) -> f64 {
+        match method {
+            Method::Taylor => taylor::effort(self.order_of(method)),
+            _ => 1.0,
+        }
+    }
+
     /// How to run it.
     pub fn options(&self) -> &RunOptions {
         &self.options
@@ -339,7 +363,7 @@ impl Plan {
             return Box::new(ClosedFlight::new(problem, motion, control));
         }
         let bodies = group::Bodies { charts, motions, bindings: spec.bindings.clone() };
-        let course = group::Course { control, projection: self.options.projection };
+        let course = group::Course { control, projection: self.options.projection, order: self.order_of(spec.method) };
         group::flight(bodies, spec.method, course, t, &y)
     }
 

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
-use crate::integrator::{Control, Counts, Flight, FlightError};
+use crate::integrator::{Control, Counts, Flight, FlightError, Method};
 use crate::math::sum::Time;
 use crate::plan::{Compound, FlightGroup, Plan};
 use crate::scene::Span;
@@ -204,8 +204,8 @@ struct Grain {
     eps: f64,
     /// Steps of contacts that last, in their own [-].
     step: f64,
-    /// By how much the numbers at the start of what meets nothing are off, as a part of each [-]: as the roundings that
-    /// all passes have in common, such as those of moments of inertia, a motion may magnify them.
+    /// By how much the numbers at the start of what is integrated and meets nothing are off, as a part of each [-]: as
+    /// the roundings that all passes have in common, such as those of moments of inertia, a motion may magnify them.
     nudge: f64,
 }
 
@@ -266,7 +266,7 @@ impl Simulation {
         for (group, spec) in plan.groups().iter().enumerate() {
             let charts = plan.charts(group, &[])?;
             let mut motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            if grain.nudge > 0.0 && !spec.meets {
+            if grain.nudge > 0.0 && !spec.meets && spec.method != Method::Exact {
                 charts.iter().zip(&mut motions).for_each(|(chart, motion)| nudge(chart, motion, grain.nudge));
             }
             let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
