@@ -33,7 +33,8 @@ impl PairCache {
         Self::default()
     }
 
-    /// The remembered pairs that both bodies have vertices for, and whether they enclosed an overlap.
+    /// The remembered pairs that both bodies have vertices for, no two alike, and whether they enclosed an
+    /// overlap.
     #[inline]
     pub(super) fn load(
         &self,
@@ -45,8 +46,7 @@ impl PairCache {
         let mut count = 0;
         for pair in pairs.iter().take(usize::from(*stored)) {
             let ids = pair.map(u32::from);
-            let exists = (ids[0] as usize) < a.vertices().len() && (ids[1] as usize) < b.vertices().len();
-            if exists && !into[..count].contains(&ids) {
+            if (ids[0] as usize) < a.vertices().len() && (ids[1] as usize) < b.vertices().len() {
                 into[count] = ids;
                 count += 1;
             }
@@ -54,16 +54,19 @@ impl PairCache {
         (count, *inside)
     }
 
-    /// Remembers pairs; bodies of more than 65,536 vertices are not remembered.
+    /// Remembers pairs, no two of which are alike; vertices beyond number 65,535 are not remembered.
     #[inline]
     pub(super) fn store(&mut self, ids: &[Ids], inside: bool) {
-        let (mut pairs, mut count) = ([[0; 2]; Self::CAPACITY], 0);
+        if !matches!(self.memory, Memory::Vertices { .. }) {
+            self.memory = Memory::Vertices { pairs: [[0; 2]; Self::CAPACITY], count: 0, inside };
+        }
+        let Memory::Vertices { pairs, count, inside: was_inside } = &mut self.memory else { return };
+        (*count, *was_inside) = (0, inside);
         for &[i, j] in ids.iter().take(Self::CAPACITY) {
             let (Ok(i), Ok(j)) = (u16::try_from(i), u16::try_from(j)) else { continue };
-            pairs[usize::from(count)] = [i, j];
-            count += 1;
+            pairs[usize::from(*count)] = [i, j];
+            *count += 1;
         }
-        self.memory = Memory::Vertices { pairs, count, inside };
     }
 
     /// The remembered normal.

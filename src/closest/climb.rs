@@ -33,13 +33,34 @@ pub(super) fn polyhedra(
     let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
     let (views, center) = ([view_a, view_b], at_a.point(a.center()));
     let rounding = view_a.rounding + view_b.rounding;
+    let pair = Pair::new(a, &at_a, b, &at_b);
     let mut start = [[0; 2]; PairCache::CAPACITY];
     let (count, inside) = cache.as_ref().map_or((0, false), |c| c.load(a, b, &mut start));
+    let start = &start[..count];
     let mut steps = 0;
 
+    // the vertices of the last answer, where the bodies were apart
+    let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
+    let was_apart = !inside && (1..=3).contains(&count);
+    if was_apart {
+        let mut found = Bounds::unknown(pair.simplex(start));
+        if search::verify(&pair, &mut found, gap, &mut steps) {
+            let answer = describe(&pair, &found, views, &center, accuracy, steps, Rung::Verified);
+            if answer.certified {
+                if let Some(cache) = cache {
+                    cache.store(&found.simplex.ids[..found.simplex.count], false);
+                }
+                return answer;
+            }
+        }
+    }
+
     // in f64 first, in double-double where that proves too little
-    let pair = Pair::new(a, &at_a, b, &at_b);
-    let mut found = climb(&pair, &start[..count], inside, rounding, accuracy, &mut steps);
+    let mut found = if was_apart {
+        walk(&pair, start, gap, rounding, accuracy, &mut steps)
+    } else {
+        climb(&pair, start, inside, gap, rounding, accuracy, &mut steps)
+    };
     let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
     if !answer.certified {
         let pair = Pair::precise(a, &at_a, b, &at_b);
@@ -99,37 +120,46 @@ struct Outcome<R> {
     rung: Rung,
 }
 
-/// The rungs in `f64`: verify the cached vertices, walk from their features, search.
-#[inline]
-fn climb(
+/// The walk from the features of the last answer, and the search where it leads nowhere.
+#[inline(never)]
+fn walk(
     pair: &Pair<'_, f64>,
     start: &[Ids],
-    inside: bool,
+    gap: f64,
     rounding: f64,
     accuracy: Accuracy,
     steps: &mut u32,
 ) -> Outcome<f64> {
-    let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
-    if inside {
-        if let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy)) {
-            let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
-            return Outcome { bounds, core: Some(core), rung };
-        }
-    } else if (1..=3).contains(&start.len()) {
-        if let Some(bounds) = search::verify(pair, start, gap, steps) {
-            return Outcome { bounds, core: None, rung: Rung::Verified };
-        }
-        let features = [
-            feature(pair.a, start, 0, || pair.in_axes_of_a(&pair.between).to_f64()),
-            feature(pair.b, start, 1, || (-pair.in_axes_of_b(&pair.between)).to_f64()),
-        ];
-        if let Some(carriers) = walk::walk(pair, features, steps) {
-            let carriers = &carriers.ids[..carriers.count];
-            if let Some(bounds) = search::verify(pair, carriers, gap, steps) {
-                return Outcome { bounds, core: None, rung: Rung::Walked };
-            }
-            return find(pair, carriers, &pair.between, rounding, SEARCH_GAP, accuracy, steps);
-        }
+    let features = [
+        feature(pair.a, start, 0, || pair.in_axes_of_a(&pair.between).to_f64()),
+        feature(pair.b, start, 1, || (-pair.in_axes_of_b(&pair.between)).to_f64()),
+    ];
+    let Some(carriers) = walk::walk(pair, features, steps) else {
+        return find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps);
+    };
+    let mut bounds = Bounds::unknown(carriers);
+    if search::verify(pair, &mut bounds, gap, steps) {
+        return Outcome { bounds, core: None, rung: Rung::Walked };
+    }
+    find(pair, &carriers.ids[..carriers.count], &pair.between, rounding, SEARCH_GAP, accuracy, steps)
+}
+
+/// The rungs in `f64` of bodies that were not apart: what enclosed the overlap, and the search.
+#[inline(never)]
+fn climb(
+    pair: &Pair<'_, f64>,
+    start: &[Ids],
+    inside: bool,
+    gap: f64,
+    rounding: f64,
+    accuracy: Accuracy,
+    steps: &mut u32,
+) -> Outcome<f64> {
+    if inside
+        && let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy))
+    {
+        let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
+        return Outcome { bounds, core: Some(core), rung };
     }
     find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps)
 }
@@ -141,7 +171,7 @@ fn is_known_apart<R: Real>(
     rounding: f64,
     accuracy: Accuracy,
 ) -> impl Fn(&Bounds<R>) -> bool {
-    let (only_state, error, rounding) = (accuracy == Accuracy::YesNo, R::from(pair.error()), R::from(rounding));
+    let (only_state, error, rounding) = (accuracy == Accuracy::YesNo, R::from(pair.error(0.0)), R::from(rounding));
     move |found| only_state && (found.upper < rounding - error || found.lower > rounding + error)
 }
 
@@ -184,7 +214,7 @@ fn find<R: Real>(
 /// radius exceeds the error.
 #[inline]
 fn upper_bound<R: Real>(pair: &impl Difference<R>, found: &Bounds<R>) -> R {
-    if found.upper < -R::from(pair.error()) { found.upper } else { found.point.norm() }
+    if found.upper < -R::from(pair.error(0.0)) { found.upper } else { found.point.norm() }
 }
 
 /// The answer in the world, with its interval.
@@ -199,10 +229,12 @@ fn describe<R: Real>(
     rung: Rung,
 ) -> ClosestFeatures {
     // the interval of the cores
-    let (error, upper) = (R::from(pair.error()), upper_bound(pair, found));
+    let upper = upper_bound(pair, found);
+    let bound = pair.error(found.lower.to_f64().abs().max(upper.to_f64().abs()));
+    let error = R::from(bound);
     let rounding = R::from(views[0].rounding + views[1].rounding);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
-    let certified = is_certified(lower, upper, accuracy, pair.error(), pair.size());
+    let certified = is_certified(lower, upper, accuracy, bound, pair.size());
 
     // both points, joined by the same vector that the distance is taken from
     let simplex = &found.simplex;
@@ -217,8 +249,10 @@ fn describe<R: Real>(
     let core_a = center + on_a.to_vector();
     let core_b = core_a + found.point.to_vector();
     let [feature_a, feature_b] = pair.features(simplex, &found.normal);
+    let signed_distance = (found.normal.dot(&found.point) - rounding).to_f64();
+    debug_assert!(lower <= signed_distance && signed_distance <= upper, "{signed_distance:e} in {lower:e}..{upper:e}");
     ClosestFeatures {
-        signed_distance: (found.normal.dot(&found.point) - rounding).to_f64(),
+        signed_distance,
         lower,
         upper,
         state: state(lower, upper),

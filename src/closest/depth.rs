@@ -118,7 +118,7 @@ fn grow<R: Real>(
         let Some(nearest) = surface.nearest() else { break };
         let Triangle { normal, distance, corners, stuck, .. } = surface.triangles[nearest];
         let (ids, low) = pair.lowest(&-normal, Some(surface.ids[corners[0] as usize]));
-        if low > R::from(pair.error()) {
+        if low > R::from(pair.error(0.0)) {
             return None;
         }
 

@@ -44,6 +44,7 @@ mod depth;
 mod half_space;
 mod pair;
 pub mod planar;
+mod rotation;
 mod round;
 mod round_pair;
 mod search;
@@ -98,22 +99,22 @@ fn query(
 ) -> Result<ClosestFeatures> {
     check(pose_a, "pose_a")?;
     check(pose_b, "pose_b")?;
-    let answer = if a.count() == 1 && b.count() == 1 {
-        pieces((&a.part(0), pose_a), (&b.part(0), pose_b), cache, accuracy)?
+    if a.count() == 1 && b.count() == 1 {
+        pieces((&a.part(0), pose_a), (&b.part(0), pose_b), cache, accuracy)
     } else {
-        compounds(a, pose_a, b, pose_b, cache, accuracy)?
-    };
-    debug_assert!(answer.lower <= answer.signed_distance && answer.signed_distance <= answer.upper, "{answer:?}");
-    Ok(answer)
+        compounds(a, pose_a, b, pose_b, cache, accuracy)
+    }
 }
 
 /// Refuses a pose that places nothing.
 fn check(pose: &Pose, field: &'static str) -> Result<()> {
-    let size = pose.orientation.norm_squared();
+    let q = &pose.orientation;
+    let size = (q.w * q.w + q.i * q.i) + (q.j * q.j + q.k * q.k);
     if !(1e-20..=1e20).contains(&size) {
-        return Err(Error::value("closest features", field, "a pose whose quaternion has a length", pose.orientation));
+        return Err(Error::value("closest features", field, "a pose whose quaternion has a length", q));
     }
-    if !pose.position.iter().all(|x| x.abs() <= COORDINATE_MAX) {
+    let [x, y, z]: [f64; 3] = pose.position.into();
+    if !(x.abs() <= COORDINATE_MAX && y.abs() <= COORDINATE_MAX && z.abs() <= COORDINATE_MAX) {
         return Err(Error::value("closest features", field, "a position within ±1e30", pose.position));
     }
     Ok(())
@@ -211,6 +212,7 @@ fn compounds(
     if let Some(cache) = cache.as_mut() {
         **cache = memory;
     }
+    debug_assert!(lower <= best.signed_distance && best.signed_distance <= upper, "{best:?} in {lower}..{upper}");
     Ok(ClosestFeatures { lower, upper, steps, certified, state: climb::state(lower, upper), ..best })
 }
 

@@ -8,14 +8,15 @@ use std::cell::RefCell;
 
 use super::answer::Feature;
 use super::collider::Core;
-use super::pair::{Difference, Heights, Ids, Measure, Stand, from_to, rotate, rotate_back};
+use super::pair::{Difference, Heights, Ids, Measure, Stand, error_of_distance, from_to};
+use super::rotation::{rotate, rotate_back};
 use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 
-/// What a curved body's height costs beyond a polyhedron's, in units `u` times the radii [-]: 5 for the
-/// height, 4 for the point, less the 5 of the three products that it replaces, and 1 to spare.
-pub(super) const ROUND_UNITS: f64 = 5.0;
+/// What a curved body's height and point cost beyond a polyhedron's, in units `u` times the radii [-]: its
+/// height is right to 5 in place of 3, its point to 4 in place of 0.
+pub(super) const ROUND_UNITS: f64 = 4.0;
 /// Points of an inner polytope [-]: an overlap with one way out needs 30 to 400. Where a whole circle of
 /// ways out is equally deep, as between coaxial cylinders, no number suffices, and the depth is given
 /// with the bounds that are proved.
@@ -103,7 +104,7 @@ impl<'a> RoundPair<'a, DoubleDouble> {
 impl<'a, R: Heights> RoundPair<'a, R> {
     fn assemble(a: Core<'a>, at_a: &Stand<'_>, b: Core<'a>, at_b: &Stand<'_>, between: Vec3<R>, remote: f64) -> Self {
         let (radii, centers) = (a.reach() + b.reach(), Vec3::<f64>(between.to_f64()).norm());
-        let Measure { size, error } = Measure::new(R::UNIT, radii, centers, [at_a, at_b], ROUND_UNITS);
+        let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], ROUND_UNITS);
         let (a, b) = (Body { core: a, rotation: at_a.rows() }, Body { core: b, rotation: at_b.rows() });
         Self { a, b, between, size, error: error + remote, found: RefCell::new(List::new()) }
     }
@@ -134,8 +135,8 @@ impl<R: Heights> Difference<R> for RoundPair<'_, R> {
         self.size
     }
 
-    fn error(&self) -> f64 {
-        self.error
+    fn error(&self, distance: f64) -> f64 {
+        self.error + error_of_distance::<R>(distance)
     }
 
     fn most_points(&self) -> usize {
