@@ -20,8 +20,60 @@ enum Memory {
     Nothing,
     /// Vertices of two polyhedra; of an overlap those that enclose it.
     Vertices { pairs: [[u16; 2]; PairCache::CAPACITY], count: u8, inside: bool },
+    /// What encloses an overlap, with its triangles.
+    Surface(Packed),
     /// The normal of a pair with a curved body, good for a start.
     Normal([f32; 3]),
+}
+
+/// A closed surface of up to 12 points of the difference of bodies of up to 256 vertices: triangles
+/// counterclockwise seen from outside, four bits to a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Packed {
+    pairs: [[u8; 2]; Packed::POINTS],
+    corners: [u8; Packed::TRIANGLES * 3 / 2],
+    count: u8,
+}
+
+impl Packed {
+    /// Most points, and the triangles of a closed surface of so many.
+    pub(super) const POINTS: usize = 12;
+    const TRIANGLES: usize = 2 * Self::POINTS - 4;
+
+    /// Packs a closed surface, if it fits.
+    pub(super) fn of(ids: &[Ids], triangles: impl Iterator<Item = [u32; 3]>) -> Option<Self> {
+        if ids.len() > Self::POINTS {
+            return None;
+        }
+        let mut packed = Self { pairs: [[0; 2]; Self::POINTS], corners: [0; 30], count: 0 };
+        for (pair, &[i, j]) in packed.pairs.iter_mut().zip(ids) {
+            *pair = [u8::try_from(i).ok()?, u8::try_from(j).ok()?];
+            packed.count += 1;
+        }
+        let mut place = 0;
+        for corner in triangles.flatten() {
+            *packed.corners.get_mut(place / 2)? |= u8::try_from(corner).ok()? << (4 * (place % 2));
+            place += 1;
+        }
+        (place == 3 * packed.triangle_count()).then_some(packed)
+    }
+
+    /// The pairs of vertices, no two alike.
+    #[inline]
+    pub(super) fn ids(&self) -> impl Iterator<Item = Ids> {
+        self.pairs.iter().take(usize::from(self.count)).map(|pair| pair.map(u32::from))
+    }
+
+    /// The triangles, by the places of their corners in the list of pairs.
+    #[inline]
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> {
+        let corner = |k: usize| u32::from(self.corners[k / 2] >> (4 * (k % 2)) & 15);
+        (0..self.triangle_count()).map(move |t| [corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)])
+    }
+
+    fn triangle_count(&self) -> usize {
+        (2 * usize::from(self.count)).saturating_sub(4)
+    }
 }
 
 impl PairCache {
@@ -52,6 +104,19 @@ impl PairCache {
             }
         }
         (count, *inside)
+    }
+
+    /// The remembered surface, if both bodies have its vertices.
+    #[inline]
+    pub(super) fn surface(&self, a: &ConvexPolyhedron, b: &ConvexPolyhedron) -> Option<&Packed> {
+        let Memory::Surface(packed) = &self.memory else { return None };
+        let exists = |[i, j]: Ids| (i as usize) < a.vertices().len() && (j as usize) < b.vertices().len();
+        packed.ids().all(exists).then_some(packed)
+    }
+
+    /// Remembers a surface.
+    pub(super) fn store_surface(&mut self, packed: Packed) {
+        self.memory = Memory::Surface(packed);
     }
 
     /// Remembers pairs, no two of which are alike; vertices beyond number 65,535 are not remembered.

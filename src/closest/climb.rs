@@ -1,12 +1,13 @@
 //! Two convex pieces: the rungs of a query, from the cached vertices to double-double.
 
 use super::answer::{Accuracy, ClosestFeatures, Rung, State};
-use super::cache::PairCache;
+use super::cache::{Packed, PairCache};
 use super::collider::{Core, View};
-use super::depth::{self, Core as Enclosing};
+use super::depth::{self, Enclosing};
 use super::pair::{Difference, Ids, Pair, feature};
 use super::round_pair::RoundPair;
 use super::search::{self, Bounds, Found};
+use super::surface::Workshop;
 use super::vector::Vec3;
 use super::walk;
 use crate::math::double_double::{DoubleDouble, Real};
@@ -59,7 +60,8 @@ pub(super) fn polyhedra(
     let mut found = if was_apart {
         walk(&pair, start, gap, rounding, accuracy, &mut steps)
     } else {
-        climb(&pair, start, inside, gap, rounding, accuracy, &mut steps)
+        let surface = cache.as_ref().and_then(|c| c.surface(a, b));
+        climb(&pair, start, surface, inside, gap, rounding, accuracy, &mut steps)
     };
     let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
     if !answer.certified {
@@ -73,7 +75,9 @@ pub(super) fn polyhedra(
     }
     if let Some(cache) = cache {
         match found.core {
-            Some((ids, count)) if count >= 4 => cache.store(&ids[..count], true),
+            Enclosing::Surface(packed) => cache.store_surface(packed),
+            Enclosing::Points((ids, count)) if count >= 4 => cache.store(&ids[..count], true),
+            Enclosing::AsBefore => {}
             _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count], false),
         }
     }
@@ -116,7 +120,7 @@ pub(super) fn curved(
 /// What a rung found: bounds, and of an overlap the vertices that prove it.
 struct Outcome<R> {
     bounds: Bounds<R>,
-    core: Option<Enclosing>,
+    core: Enclosing,
     rung: Rung,
 }
 
@@ -139,7 +143,7 @@ fn walk(
     };
     let mut bounds = Bounds::unknown(carriers);
     if search::verify(pair, &mut bounds, gap, steps) {
-        return Outcome { bounds, core: None, rung: Rung::Walked };
+        return Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Walked };
     }
     find(pair, &carriers.ids[..carriers.count], &pair.between, rounding, SEARCH_GAP, accuracy, steps)
 }
@@ -149,17 +153,33 @@ fn walk(
 fn climb(
     pair: &Pair<'_, f64>,
     start: &[Ids],
+    surface: Option<&Packed>,
     inside: bool,
     gap: f64,
     rounding: f64,
     accuracy: Accuracy,
     steps: &mut u32,
 ) -> Outcome<f64> {
+    if let Some(packed) = surface
+        && let Some((bounds, core)) = depth::depth_on(pair, packed, gap, steps, is_known_inside(pair, accuracy))
+    {
+        let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
+        return Outcome { bounds, core, rung };
+    }
+    if let Some(packed) = surface {
+        let mut ids = [[0; 2]; Packed::POINTS];
+        let count = ids.iter_mut().zip(packed.ids()).map(|(place, pair)| *place = pair).count();
+        if let Some((bounds, core)) =
+            depth::depth_again(pair, &ids[..count], gap, steps, is_known_inside(pair, accuracy))
+        {
+            return Outcome { bounds, core, rung: Rung::Searched };
+        }
+    }
     if inside
         && let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy))
     {
         let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
-        return Outcome { bounds, core: Some(core), rung };
+        return Outcome { bounds, core, rung };
     }
     find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps)
 }
@@ -186,7 +206,7 @@ fn gap_of(accuracy: Accuracy, finest: f64) -> f64 {
 }
 
 /// The signed distance of the cores by distance search and, where they meet, depth.
-fn find<R: Real>(
+fn find<R: Workshop>(
     pair: &impl Difference<R>,
     start: &[Ids],
     toward: &Vec3<R>,
@@ -198,15 +218,15 @@ fn find<R: Real>(
     let gap = gap_of(accuracy, gap) * pair.size();
     let found = search::search(pair, start, toward, gap, steps, is_known_apart(pair, rounding, accuracy));
     let (apart, simplex) = match found {
-        Found::Apart(bounds) => return Outcome { bounds, core: None, rung: Rung::Searched },
+        Found::Apart(bounds) => return Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Searched },
         Found::Open(bounds, simplex) => (Some(bounds), simplex),
         Found::Inside(simplex) => (None, simplex),
     };
     let (deep, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
     let width = |b: &Bounds<R>| upper_bound(pair, b) - b.lower;
     match apart {
-        Some(bounds) if width(&bounds) <= width(&deep) => Outcome { bounds, core: None, rung: Rung::Searched },
-        _ => Outcome { bounds: deep, core: Some(core), rung: Rung::Searched },
+        Some(bounds) if width(&bounds) <= width(&deep) => Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Searched },
+        _ => Outcome { bounds: deep, core, rung: Rung::Searched },
     }
 }
 
@@ -230,7 +250,7 @@ fn describe<R: Real>(
 ) -> ClosestFeatures {
     // the interval of the cores
     let upper = upper_bound(pair, found);
-    let bound = pair.error(found.lower.to_f64().abs().max(upper.to_f64().abs()));
+    let bound = pair.error(if found.lower > R::from(0.0) { upper } else { found.lower }.to_f64());
     let error = R::from(bound);
     let rounding = R::from(views[0].rounding + views[1].rounding);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);

@@ -9,7 +9,7 @@
 use super::answer::{Accuracy, ClosestFeatures, Feature, Rung};
 use super::climb::{is_certified, outward, state};
 use super::collider::{Core, View};
-use super::pair::{Heights, Measure, Stand, error_of_distance, from_to};
+use super::pair::{Heights, Measure, OFF_CENTER_UNITS, Stand, error_of_distance, from_to};
 use super::rotation::{rotate, rotate_back};
 use super::round_pair::ROUND_UNITS;
 use super::vector::Vec3;
@@ -80,7 +80,7 @@ fn answer<R: Heights>(
     let rounding = R::from(view_b.rounding);
     let signed_distance = n.dot(&between) - offset - height - rounding;
 
-    let Measure { size, error } = Measure::new(R::COST, core.reach(), distance, [at_a, at_b], ROUND_UNITS);
+    let Measure { size, error } = Measure::new(R::COST, core.reach(), distance, [at_a, at_b], ROUND_UNITS + OFF_CENTER_UNITS);
     let error = error + R::COST * PLANE_UNITS * (core.reach() + distance) + remote;
     let error = error + error_of_distance::<R>(signed_distance.to_f64());
     let (lower, upper) = outward(signed_distance - R::from(error), signed_distance + R::from(error));

@@ -50,6 +50,7 @@ mod round_pair;
 mod search;
 mod simplex;
 mod support;
+mod surface;
 mod vector;
 pub mod vertex_plane;
 mod walk;

@@ -15,16 +15,18 @@
 //! ‖δR‖ ≤ √3 u          every entry is rounded once: the products of a quaternion's leading parts and
 //!                      their sums are exact, and what is left out is 2⁻²⁶ of that
 //! |δ(R v)| ≤ 5.5 u ρ   √3 for R, √3 for three products, 1 for each of two sums
-//! |δ(n·w)| ≤ 10.5 u (ρ_A + ρ_B) + 5 u |t| + 6.5 u |s|     lower bound: 3 for a dot product and 1 for
-//!                      joining it, 1 for a vertex about a centre that is not the origin; t is a difference; n is
-//!                      made a unit vector at the price of 4.5, 2 for joining and rounding off
-//! |δ|p|| ≤ 11.5 u (ρ_A + ρ_B) + 6 u |t| + 7.5 u |s|       upper bound: 2 for joining both points, 3 for
-//!                      their weighted sum or a height along a normal, 3 for weights that sum to 1 + 3 u
+//! |δ(n·w)| ≤ 9.5 u (ρ_A + ρ_B) + 5 u |t| + 6.5 u |s|     lower bound: 3 for a dot product, 1 for joining it;
+//!                      t is a difference; n is a unit vector to 4.5; joining, and rounding off the result
+//! |δ|p|| ≤ 9.5 u (ρ_A + ρ_B) + 5 u |t| + 7.5 u |s|        upper bound, apart: 2 for joining both points, 2
+//!                      for their weighted sum; the weights sum to 1 + 3 u
+//! |δ(n·w)| ≤ 10.5 u (ρ_A + ρ_B) + 6 u |t| + 5.5 u |s|     upper bound, overlapping: 2 for joining both
+//!                      points, 3 for the height of a triangle
 //! ```
 //!
 //! so the height of the difference along any direction, and the length of any of its points, are known
-//! to the larger of both. That number is charged once to the lower and once to the upper bound of every
-//! answer. A piece of a compound is turned twice: 2 u for its own rotation, 9 u for the product of the two.
+//! to the largest of these. That number is charged once to the lower and once to the upper bound of every
+//! answer. A vertex about a centre that is not the origin is rounded: 1 u. A piece of a compound is turned
+//! twice: 2 u for its own rotation, 9 u for the product of the two.
 //!
 //! A body may be the set of all points within `rounding` of a polyhedron: balls and capsules are. Every
 //! `s(n)` then falls by that radius, and so does the signed distance, whatever the state.
@@ -41,11 +43,14 @@ use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, highest_o
 pub(super) type Ids = [u32; 2];
 
 /// Bound of rounding in heights and lengths, in units `u` times the radii [-]; see the module.
-const RADII_UNITS: f64 = 11.5;
+const RADII_UNITS: f64 = 10.5;
 /// The same for the distance of the centres [-].
 const CENTERS_UNITS: f64 = 6.0;
-/// The same for the signed distance [-].
+/// The same for the distance, and for the depth [-].
 const DISTANCE_UNITS: f64 = 7.5;
+const DEPTH_UNITS: f64 = 5.5;
+/// What vertices about a centre that is not the origin add, in units `u` times the radii [-].
+pub(super) const OFF_CENTER_UNITS: f64 = 1.0;
 /// Relative rounding in the climbed heights of one body, in units `u` [-]: two dot products and the
 /// direction's own rotation cancel from a comparison; what is left is 2 · (3 + 1) u.
 const PLATEAU_UNITS: f64 = 10.0;
@@ -186,7 +191,8 @@ pub(super) struct Measure {
 
 /// What a signed distance adds to the rounding error of a pair, in units of it [-].
 pub(super) fn error_of_distance<R: Heights>(distance: f64) -> f64 {
-    DISTANCE_UNITS * R::COST * distance.abs()
+    let units = if distance < 0.0 { DEPTH_UNITS } else { DISTANCE_UNITS };
+    units * R::COST * distance.abs()
 }
 
 impl Measure {
@@ -254,7 +260,8 @@ impl<'a, R: Heights> Pair<'a, R> {
         remote: f64,
     ) -> Self {
         let (radii, centers) = (a.radius() + b.radius(), Vec3::<f64>(between.to_f64()).norm());
-        let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], 0.0);
+        let extra = if a.is_about_origin() && b.is_about_origin() { 0.0 } else { OFF_CENTER_UNITS };
+        let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], extra);
         let rotations = if at_a.piece.is_none() && at_b.piece.is_none() {
             R::rotations(&at_a.pose.orientation, &at_b.pose.orientation)
         } else {

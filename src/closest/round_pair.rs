@@ -8,7 +8,7 @@ use std::cell::RefCell;
 
 use super::answer::Feature;
 use super::collider::Core;
-use super::pair::{Difference, Heights, Ids, Measure, Stand, error_of_distance, from_to};
+use super::pair::{Difference, Heights, Ids, Measure, OFF_CENTER_UNITS, Stand, error_of_distance, from_to};
 use super::rotation::{rotate, rotate_back};
 use super::simplex::Simplex;
 use super::vector::Vec3;
@@ -104,7 +104,7 @@ impl<'a> RoundPair<'a, DoubleDouble> {
 impl<'a, R: Heights> RoundPair<'a, R> {
     fn assemble(a: Core<'a>, at_a: &Stand<'_>, b: Core<'a>, at_b: &Stand<'_>, between: Vec3<R>, remote: f64) -> Self {
         let (radii, centers) = (a.reach() + b.reach(), Vec3::<f64>(between.to_f64()).norm());
-        let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], ROUND_UNITS);
+        let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], ROUND_UNITS + OFF_CENTER_UNITS);
         let (a, b) = (Body { core: a, rotation: at_a.rows() }, Body { core: b, rotation: at_b.rows() });
         Self { a, b, between, size, error: error + remote, found: RefCell::new(List::new()) }
     }
