@@ -40,7 +40,8 @@ impl Packed {
     pub(super) const POINTS: usize = 12;
     const TRIANGLES: usize = 2 * Self::POINTS - 4;
 
-    /// Packs a closed surface, if it fits.
+    /// Packs a surface, if it fits and is closed: every side of a triangle is one other's, the other way
+    /// round. What rounding tore is not remembered.
     pub(super) fn of(ids: &[Ids], triangles: impl Iterator<Item = [u32; 3]>) -> Option<Self> {
         if ids.len() > Self::POINTS {
             return None;
@@ -50,12 +51,20 @@ impl Packed {
             *pair = [u8::try_from(i).ok()?, u8::try_from(j).ok()?];
             packed.count += 1;
         }
-        let mut place = 0;
-        for corner in triangles.flatten() {
-            *packed.corners.get_mut(place / 2)? |= u8::try_from(corner).ok()? << (4 * (place % 2));
-            place += 1;
+        let (mut place, mut sides) = (0, [0u16; Self::POINTS]);
+        for corners in triangles {
+            for (k, corner) in (1..).zip(corners) {
+                *packed.corners.get_mut(place / 2)? |= u8::try_from(corner).ok()? << (4 * (place % 2));
+                place += 1;
+                let side = 1 << corners[k % 3];
+                if sides[corner as usize] & side != 0 {
+                    return None;
+                }
+                sides[corner as usize] |= side;
+            }
         }
-        (place == 3 * packed.triangle_count()).then_some(packed)
+        let has_opposite = |i: usize| (0..Self::POINTS).all(|j| sides[i] >> j & 1 == sides[j] >> i & 1);
+        (place == 3 * packed.triangle_count() && (0..Self::POINTS).all(has_opposite)).then_some(packed)
     }
 
     /// The pairs of vertices, no two alike.
@@ -159,6 +168,24 @@ impl PairCache {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_closed_surfaces_are_packed() {
+        let ids = [[7, 255], [1, 2], [9, 0], [3, 3]];
+        let closed = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let packed = Packed::of(&ids, closed.into_iter()).unwrap();
+        assert_eq!(
+            (packed.ids().collect::<Vec<_>>(), packed.triangles().collect::<Vec<_>>()),
+            (ids.into(), closed.into())
+        );
+        // a triangle the wrong way round, a triangle twice
+        for last in [[0, 2, 3], [1, 2, 3]] {
+            let torn = [closed[0], closed[1], closed[2], last];
+            assert_eq!(Packed::of(&ids, torn.into_iter()), None, "{torn:?}");
+        }
+        assert_eq!(Packed::of(&[[256, 0]; 4], closed.into_iter()), None);
+        assert_eq!(Packed::of(&ids, closed.into_iter().take(3)), None);
+    }
 
     #[test]
     fn a_cache_is_at_most_64_bytes() {

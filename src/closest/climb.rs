@@ -4,9 +4,11 @@ use super::answer::{Accuracy, ClosestFeatures, Rung, State};
 use super::cache::{Packed, PairCache};
 use super::collider::{Core, View};
 use super::depth::{self, Enclosing};
+use super::meridian;
 use super::pair::{Difference, Ids, Pair, feature};
 use super::round_pair::RoundPair;
 use super::search::{self, Bounds, Found};
+use super::simplex::Simplex;
 use super::surface::Workshop;
 use super::vector::Vec3;
 use super::walk;
@@ -175,8 +177,7 @@ fn climb(
             return Outcome { bounds, core, rung: Rung::Searched };
         }
     }
-    if inside
-        && let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy))
+    if inside && let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy))
     {
         let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
         return Outcome { bounds, core, rung };
@@ -222,12 +223,31 @@ fn find<R: Workshop>(
         Found::Open(bounds, simplex) => (Some(bounds), simplex),
         Found::Inside(simplex) => (None, simplex),
     };
-    let (deep, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
     let width = |b: &Bounds<R>| upper_bound(pair, b) - b.lower;
+    let (deep, core) = overlap(pair, &simplex, gap, steps, accuracy);
     match apart {
-        Some(bounds) if width(&bounds) <= width(&deep) => Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Searched },
+        Some(bounds) if width(&bounds) <= width(&deep) => {
+            Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Searched }
+        }
         _ => Outcome { bounds: deep, core, rung: Rung::Searched },
     }
+}
+
+/// The depth of the cores: of bodies of revolution about one axis in the plane, of others in space.
+fn overlap<R: Workshop>(
+    pair: &impl Difference<R>,
+    simplex: &Simplex<R>,
+    gap: f64,
+    steps: &mut u32,
+    accuracy: Accuracy,
+) -> (Bounds<R>, Enclosing) {
+    let (axis, enough) = (pair.axis(), is_known_inside(pair, accuracy));
+    if let Some(axis) = axis.filter(|axis| axis.comes_first(pair))
+        && let Some(bounds) = meridian::depth(pair, &axis, R::from(gap), steps, &enough)
+    {
+        return (bounds, Enclosing::Nothing);
+    }
+    depth::depth(pair, simplex, gap, steps, enough)
 }
 
 /// The upper bound that holds, but for the pair's error: a ball around the origin is proved only where its

@@ -80,7 +80,8 @@ fn answer<R: Heights>(
     let rounding = R::from(view_b.rounding);
     let signed_distance = n.dot(&between) - offset - height - rounding;
 
-    let Measure { size, error } = Measure::new(R::COST, core.reach(), distance, [at_a, at_b], ROUND_UNITS + OFF_CENTER_UNITS);
+    let Measure { size, error } =
+        Measure::new(R::COST, core.reach(), distance, [at_a, at_b], ROUND_UNITS + OFF_CENTER_UNITS);
     let error = error + R::COST * PLANE_UNITS * (core.reach() + distance) + remote;
     let error = error + error_of_distance::<R>(signed_distance.to_f64());
     let (lower, upper) = outward(signed_distance - R::from(error), signed_distance + R::from(error));

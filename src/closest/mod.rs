@@ -42,6 +42,7 @@ mod climb;
 mod collider;
 mod depth;
 mod half_space;
+mod meridian;
 mod pair;
 pub mod planar;
 mod rotation;

@@ -32,6 +32,7 @@
 //! `s(n)` then falls by that radius, and so does the signed distance, whatever the state.
 
 use super::answer::Feature;
+use super::meridian::Axis;
 use super::rotation::{Rotations, precise_rotation, rotate, rotate_back, rotation, rotations};
 use super::simplex::Simplex;
 use super::vector::Vec3;
@@ -93,6 +94,11 @@ pub(super) trait Difference<R: Real> {
 
     /// The simplex of up to four points of the difference.
     fn simplex(&self, ids: &[Ids]) -> Simplex<R>;
+
+    /// The common axis of two bodies of revolution, where there is one.
+    fn axis(&self) -> Option<Axis<R>> {
+        None
+    }
 
     /// The features of A and B that carry a simplex, for the normal from A to B.
     fn features(&self, simplex: &Simplex<R>, normal: &Vec3<R>) -> [Feature; 2];

@@ -124,12 +124,7 @@ pub(super) fn search<R: Real>(
 /// Whether the points of the simplex still carry the closest point, or others that the looks around come
 /// upon do, after at most [`EXCHANGES`] of them. If so, the bounds are those of the answer.
 #[inline]
-pub(super) fn verify<R: Real>(
-    pair: &impl Difference<R>,
-    found: &mut Bounds<R>,
-    gap: f64,
-    steps: &mut u32,
-) -> bool {
+pub(super) fn verify<R: Real>(pair: &impl Difference<R>, found: &mut Bounds<R>, gap: f64, steps: &mut u32) -> bool {
     let Bounds { simplex, .. } = found;
     for _ in 0..=EXCHANGES {
         *steps += 1;
