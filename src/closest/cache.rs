@@ -19,7 +19,7 @@ enum Memory {
     #[default]
     Nothing,
     /// Vertices of two polyhedra; of an overlap those that enclose it.
-    Vertices { pairs: [[u16; 2]; PairCache::CAPACITY], count: u8, inside: bool },
+    Vertices { pairs: [[u16; 2]; PairCache::CAPACITY], count: u8 },
     /// What encloses an overlap, with its triangles.
     Surface(Packed),
     /// The normal of a pair with a curved body, good for a start.
@@ -94,25 +94,25 @@ impl PairCache {
         Self::default()
     }
 
-    /// The remembered pairs that both bodies have vertices for, no two alike, and whether they enclosed an
-    /// overlap.
+    /// The remembered pairs that both bodies have vertices for, no two alike: up to 3 that carried a distance,
+    /// or more that enclosed an overlap.
     #[inline]
-    pub(super) fn load(
-        &self,
-        a: &ConvexPolyhedron,
-        b: &ConvexPolyhedron,
-        into: &mut [Ids; Self::CAPACITY],
-    ) -> (usize, bool) {
-        let Memory::Vertices { pairs, count: stored, inside } = &self.memory else { return (0, false) };
+    pub(super) fn load(&self, a: &ConvexPolyhedron, b: &ConvexPolyhedron, into: &mut [Ids; Self::CAPACITY]) -> usize {
         let mut count = 0;
-        for pair in pairs.iter().take(usize::from(*stored)) {
-            let ids = pair.map(u32::from);
+        let mut take = |ids: Ids| {
             if (ids[0] as usize) < a.vertices().len() && (ids[1] as usize) < b.vertices().len() {
                 into[count] = ids;
                 count += 1;
             }
+        };
+        match &self.memory {
+            Memory::Vertices { pairs, count: stored } => {
+                pairs.iter().take(usize::from(*stored)).for_each(|pair| take(pair.map(u32::from)));
+            }
+            Memory::Surface(packed) => packed.ids().for_each(take),
+            Memory::Nothing | Memory::Normal(_) => {}
         }
-        (count, *inside)
+        count
     }
 
     /// The remembered surface, if both bodies have its vertices.
@@ -130,12 +130,12 @@ impl PairCache {
 
     /// Remembers pairs, no two of which are alike; vertices beyond number 65,535 are not remembered.
     #[inline]
-    pub(super) fn store(&mut self, ids: &[Ids], inside: bool) {
+    pub(super) fn store(&mut self, ids: &[Ids]) {
         if !matches!(self.memory, Memory::Vertices { .. }) {
-            self.memory = Memory::Vertices { pairs: [[0; 2]; Self::CAPACITY], count: 0, inside };
+            self.memory = Memory::Vertices { pairs: [[0; 2]; Self::CAPACITY], count: 0 };
         }
-        let Memory::Vertices { pairs, count, inside: was_inside } = &mut self.memory else { return };
-        (*count, *was_inside) = (0, inside);
+        let Memory::Vertices { pairs, count } = &mut self.memory else { return };
+        *count = 0;
         for &[i, j] in ids.iter().take(Self::CAPACITY) {
             let (Ok(i), Ok(j)) = (u16::try_from(i), u16::try_from(j)) else { continue };
             pairs[usize::from(*count)] = [i, j];

@@ -38,20 +38,20 @@ pub(super) fn polyhedra(
     let rounding = view_a.rounding + view_b.rounding;
     let pair = Pair::new(a, &at_a, b, &at_b);
     let mut start = [[0; 2]; PairCache::CAPACITY];
-    let (count, inside) = cache.as_ref().map_or((0, false), |c| c.load(a, b, &mut start));
+    let count = cache.as_ref().map_or(0, |c| c.load(a, b, &mut start));
     let start = &start[..count];
     let mut steps = 0;
 
     // the vertices of the last answer, where the bodies were apart
-    let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
-    let was_apart = !inside && (1..=3).contains(&count);
+    let was_apart = (1..=3).contains(&count);
     if was_apart {
+        let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
         let mut found = Bounds::unknown(pair.simplex(start));
         if search::verify(&pair, &mut found, gap, &mut steps) {
             let answer = describe(&pair, &found, views, &center, accuracy, steps, Rung::Verified);
             if answer.certified {
                 if let Some(cache) = cache {
-                    cache.store(&found.simplex.ids[..found.simplex.count], false);
+                    cache.store(&found.simplex.ids[..found.simplex.count]);
                 }
                 return answer;
             }
@@ -60,10 +60,10 @@ pub(super) fn polyhedra(
 
     // in f64 first, in double-double where that proves too little
     let mut found = if was_apart {
-        walk(&pair, start, gap, rounding, accuracy, &mut steps)
+        walk(&pair, start, rounding, accuracy, &mut steps)
     } else {
         let surface = cache.as_ref().and_then(|c| c.surface(a, b));
-        climb(&pair, start, surface, inside, gap, rounding, accuracy, &mut steps)
+        climb(&pair, start, surface, rounding, accuracy, &mut steps)
     };
     let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
     if !answer.certified {
@@ -78,9 +78,9 @@ pub(super) fn polyhedra(
     if let Some(cache) = cache {
         match found.core {
             Enclosing::Surface(packed) => cache.store_surface(packed),
-            Enclosing::Points((ids, count)) if count >= 4 => cache.store(&ids[..count], true),
+            Enclosing::Points((ids, count)) if count >= 4 => cache.store(&ids[..count]),
             Enclosing::AsBefore => {}
-            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count], false),
+            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count]),
         }
     }
     answer
@@ -128,14 +128,7 @@ struct Outcome<R> {
 
 /// The walk from the features of the last answer, and the search where it leads nowhere.
 #[inline(never)]
-fn walk(
-    pair: &Pair<'_, f64>,
-    start: &[Ids],
-    gap: f64,
-    rounding: f64,
-    accuracy: Accuracy,
-    steps: &mut u32,
-) -> Outcome<f64> {
+fn walk(pair: &Pair<'_, f64>, start: &[Ids], rounding: f64, accuracy: Accuracy, steps: &mut u32) -> Outcome<f64> {
     let features = [
         feature(pair.a, start, 0, || pair.in_axes_of_a(&pair.between).to_f64()),
         feature(pair.b, start, 1, || (-pair.in_axes_of_b(&pair.between)).to_f64()),
@@ -144,7 +137,7 @@ fn walk(
         return find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps);
     };
     let mut bounds = Bounds::unknown(carriers);
-    if search::verify(pair, &mut bounds, gap, steps) {
+    if search::verify(pair, &mut bounds, gap_of(accuracy, SEARCH_GAP) * pair.size, steps) {
         return Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Walked };
     }
     find(pair, &carriers.ids[..carriers.count], &pair.between, rounding, SEARCH_GAP, accuracy, steps)
@@ -156,29 +149,16 @@ fn climb(
     pair: &Pair<'_, f64>,
     start: &[Ids],
     surface: Option<&Packed>,
-    inside: bool,
-    gap: f64,
     rounding: f64,
     accuracy: Accuracy,
     steps: &mut u32,
 ) -> Outcome<f64> {
-    if let Some(packed) = surface
-        && let Some((bounds, core)) = depth::depth_on(pair, packed, gap, steps, is_known_inside(pair, accuracy))
-    {
-        let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
-        return Outcome { bounds, core, rung };
+    let (gap, enough) = (gap_of(accuracy, SEARCH_GAP) * pair.size, is_known_inside(pair, accuracy));
+    let mut again = surface.and_then(|packed| depth::depth_on(pair, packed, gap, steps, &enough));
+    if again.is_none() {
+        again = depth::depth_again(pair, start, gap, steps, &enough);
     }
-    if let Some(packed) = surface {
-        let mut ids = [[0; 2]; Packed::POINTS];
-        let count = ids.iter_mut().zip(packed.ids()).map(|(place, pair)| *place = pair).count();
-        if let Some((bounds, core)) =
-            depth::depth_again(pair, &ids[..count], gap, steps, is_known_inside(pair, accuracy))
-        {
-            return Outcome { bounds, core, rung: Rung::Searched };
-        }
-    }
-    if inside && let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy))
-    {
+    if let Some((bounds, core)) = again {
         let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
         return Outcome { bounds, core, rung };
     }

@@ -58,6 +58,17 @@ pub(super) enum Core<'a> {
     Round(&'a Round),
 }
 
+/// Whether a core is a body of revolution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Revolution {
+    /// It is not.
+    No,
+    /// About this unit vector, own axes, through its centre.
+    About([f64; 3]),
+    /// About every one: a point.
+    AboutAnything,
+}
+
 impl Core<'_> {
     /// The point that it is centred about, own axes [m].
     pub(super) fn center(&self) -> [f64; 3] {
@@ -75,15 +86,15 @@ impl Core<'_> {
         }
     }
 
-    /// What it is of revolution about, if it is: none for a point, which is so about every axis.
-    pub(super) fn axis(&self) -> Option<Option<[f64; 3]>> {
+    /// What it is of revolution about.
+    pub(super) fn revolution(&self) -> Revolution {
         match self {
             Self::Polyhedron(body) => match body.vertices_about_center() {
-                [_] => Some(None),
-                [_, _] => Some(Some(body.edges()[0].direction)),
-                _ => None,
+                [_] => Revolution::AboutAnything,
+                [_, _] => Revolution::About(body.edges()[0].direction),
+                _ => Revolution::No,
             },
-            Self::Round(round) => round.axis().map(Some),
+            Self::Round(round) => round.axis().map_or(Revolution::No, Revolution::About),
         }
     }
 

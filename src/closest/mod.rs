@@ -20,7 +20,7 @@
 //!
 //! | rung | what is tried |
 //! |---|---|
-//! | [`Rung::Verified`] | the vertices of the last answer, checked by one look around |
+//! | [`Rung::Verified`] | the vertices of the last answer, checked by one look around; apart, up to three are exchanged for what the looks come upon |
 //! | [`Rung::Walked`] | the Lin–Canny walk from the last features, checked the same way |
 //! | [`Rung::Searched`] | search in `f64`: distance by GJK, depth by a growing polytope, supports by climbing |
 //! | [`Rung::DoubleDouble`] | the same in double-double |
@@ -30,9 +30,12 @@
 //! points are found as the search goes; a half space has a closed form. A compound's signed distance is
 //! the least over its pieces: apart, the distance; overlapping, minus the largest depth of two pieces.
 //!
-//! **What is not certified**: a curved body overlapping so that a whole circle or sphere of ways out is
-//! equally deep, such as coaxial cylinders. The interval then is wider, about 1e-4 of the size, it still
-//! holds, and `certified` is false.
+//! Bodies of revolution whose axes are parallel may have a whole circle of ways out that are equally deep,
+//! as coaxial cylinders have: their depth is found in the plane through the axis.
+//!
+//! **What is not certified**: a curved body overlapping so that ways out on a whole curve are all but
+//! equally deep, though no common axis makes them so, such as cylinders at an angle of 1e-6. The interval
+//! then is wider, about 1e-4 of the size, it still holds, and `certified` is false.
 //!
 //! Modules: [`planar`] is the lecture's own two-dimensional walk over Voronoi regions.
 

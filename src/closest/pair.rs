@@ -435,6 +435,7 @@ impl Heights for f64 {
 
 /// The highest of the vertices that hang together with the top at heights from `floor` on.
 #[inline(never)]
+#[expect(clippy::manual_contains, reason = "of two or three, which `contains` is too wide for")]
 fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, floor: f64, d: &[f64; 3]) -> (u32, f64) {
     let mut seen = [at; PLATEAU];
     let (mut count, mut next) = (1, 0);
@@ -445,8 +446,8 @@ fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, floor: f64, d: &[f64;
             if highest_of(&heights) < floor {
                 continue;
             }
-            for lane in 0..4 {
-                let (k, h) = (block.ids()[lane], heights[lane]);
+            for (lane, &h) in heights.iter().enumerate() {
+                let k = block.ids()[lane];
                 if h < floor || seen[..count].iter().any(|&known| known == k) {
                     continue;
                 }

@@ -7,7 +7,7 @@
 use std::cell::RefCell;
 
 use super::answer::Feature;
-use super::collider::Core;
+use super::collider::{Core, Revolution};
 use super::meridian::{Axis, unit};
 use super::pair::{Difference, Heights, Ids, Measure, OFF_CENTER_UNITS, Stand, error_of_distance, from_to};
 use super::rotation::{rotate, rotate_back};
@@ -18,9 +18,8 @@ use crate::math::double_double::{DoubleDouble, Real};
 /// What a curved body's height and point cost beyond a polyhedron's, in units `u` times the radii [-]: its
 /// height is right to 5 in place of 3, its point to 4 in place of 0.
 pub(super) const ROUND_UNITS: f64 = 4.0;
-/// Points of an inner polytope [-]: an overlap with one way out needs 30 to 400. Where a whole circle of
-/// ways out is equally deep, as between coaxial cylinders, no number suffices, and the depth is given
-/// with the bounds that are proved.
+/// Points of an inner polytope [-]: an overlap with one way out needs 30 to 400. Where ways out on a whole
+/// curve are equally deep no number suffices, and the depth is given with the bounds that are proved.
 const POINTS: usize = 640;
 /// Axes at a smaller angle than this [rad] count as parallel; what the angle may move is added to the upper
 /// bound. Larger: wider intervals where the search in space would have found narrower ones.
@@ -120,10 +119,10 @@ impl<'a, R: Heights> RoundPair<'a, R> {
 /// The common axis of two bodies of revolution, if their axes are parallel: what is left of an angle is
 /// worked out in double-double.
 fn common_axis<R: Heights>((a, at_a): (&Core<'_>, &Stand<'_>), (b, at_b): (&Core<'_>, &Stand<'_>)) -> Option<Axis<R>> {
-    let (axis_a, axis_b) = (a.axis()?, b.axis()?);
+    use Revolution::{About, AboutAnything, No};
     let turned = |at: &Stand<'_>, axis| unit(&rotate(&at.rows::<R>(), &Vec3::new(axis)));
-    match (axis_a, axis_b) {
-        (Some(z), Some(other)) => {
+    match (a.revolution(), b.revolution()) {
+        (About(z), About(other)) => {
             let along = turned(at_a, z);
             if turned(at_b, other).cross(&along).norm().to_f64() > NEARLY_PARALLEL {
                 return None;
@@ -134,9 +133,9 @@ fn common_axis<R: Heights>((a, at_a): (&Core<'_>, &Stand<'_>), (b, at_b): (&Core
             let off = (tilt * (1.0 + 4.0 * f64::EPSILON) + 32.0 * DoubleDouble::UNIT) * b.reach();
             Some(Axis { along, off, is_any: false })
         }
-        (Some(z), None) => Some(Axis { along: turned(at_a, z), off: 0.0, is_any: true }),
-        (None, Some(z)) => Some(Axis { along: turned(at_b, z), off: 0.0, is_any: true }),
-        (None, None) => None,
+        (About(z), AboutAnything) => Some(Axis { along: turned(at_a, z), off: 0.0, is_any: true }),
+        (AboutAnything, About(z)) => Some(Axis { along: turned(at_b, z), off: 0.0, is_any: true }),
+        (No, _) | (_, No) | (AboutAnything, AboutAnything) => None,
     }
 }
 

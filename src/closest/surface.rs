@@ -183,6 +183,7 @@ impl<R: Real> Surface<R> {
         Packed::of(&ids[..count], alive().map(|t| t.corners.map(|k| place_of[k as usize])))
     }
 
+    #[inline]
     fn triangle(&self, corners: [u32; 3], across: [u32; 3]) -> Triangle<R> {
         let [a, b, c] = corners.map(|k| self.points[k as usize]);
         let n = triangle_normal(&a, &b, &c);
@@ -195,7 +196,7 @@ impl<R: Real> Surface<R> {
         }
         let normal = n.scaled(R::from(1.0) / length);
         let heights = [normal.dot(&a), normal.dot(&b), normal.dot(&c)];
-        let (distance, top) = (least(heights), -least(heights.map(|h| -h)));
+        let (distance, top) = (least(heights), most(heights));
         Triangle { corners, across, normal, distance, top, stuck: false, alive: true }
     }
 
@@ -291,7 +292,7 @@ impl<R: Real> Surface<R> {
             let heights = t.corners.map(|k| n.dot(&self.points[k as usize]));
             let distance = least(heights);
             if distance > t.distance || t.normal == Vec3::zero() {
-                (t.normal, t.distance, t.top) = (n, distance, -least(heights.map(|h| -h)));
+                (t.normal, t.distance, t.top) = (n, distance, most(heights));
             }
         }
     }
@@ -335,11 +336,13 @@ impl<R: Real> Surface<R> {
         for k in 0..self.rim.len() {
             let Rim { from, to, beyond } = self.rim[k];
             let triangle = self.triangle([from, to, apex], [beyond, u32::MAX, u32::MAX]);
-            let place = self.free.pop().unwrap_or_else(|| {
+            let place = if let Some(place) = self.free.pop() {
+                self.triangles[place as usize] = triangle;
+                place
+            } else {
                 self.triangles.push(triangle);
                 u32::try_from(self.triangles.len() - 1).unwrap_or(u32::MAX)
-            });
-            self.triangles[place as usize] = triangle;
+            };
             let other = &mut self.triangles[beyond as usize];
             for side in 0..3 {
                 if other.corners[side] == to && other.corners[(side + 1) % 3] == from {
@@ -377,6 +380,13 @@ impl<R: Real> Triangle<R> {
     fn sees(&self, point: &Vec3<R>) -> bool {
         self.normal.dot(point) > self.top
     }
+}
+
+/// The largest of three numbers.
+#[inline]
+fn most<R: Real>([a, b, c]: [R; 3]) -> R {
+    let ab = if a > b { a } else { b };
+    if ab > c { ab } else { c }
 }
 
 /// The least of three numbers.

@@ -140,8 +140,8 @@ impl PyClosestFeatures {
         self.0.steps
     }
 
-    /// How far the query had to climb: "verified" (the cached vertices still were the answer), "walked"
-    /// (from the cached features), "searched" or "double_double".
+    /// How far the query had to climb: "verified" (the cached vertices or their neighbours were the answer),
+    /// "walked" (from the cached features), "searched" or "double_double".
     #[getter]
     fn rung(&self) -> &'static str {
         match self.0.rung {
