@@ -110,7 +110,8 @@ def main():
             call, _ = coal_queries(ball, ball, transforms, step is not None)
             for size in SIZES:
                 p, r = points(size, (1.0, 0.8, 0.6), 0.0), points(size, (0.9, 1.0, 0.7), 1.0)
-                ours, d = bryla_queries(bryla.Collider(bryla.ConvexPolyhedron(p)), bryla.Collider(bryla.ConvexPolyhedron(r)), x, q)
+                hulls = [bryla.Collider(bryla.ConvexPolyhedron(cloud)) for cloud in (p, r)]
+                ours, d = bryla_queries(*hulls, x, q)
                 theirs, e = coal_queries(coal_hull(p), coal_hull(r), transforms, step is not None)
                 theirs -= call
                 off = np.max(np.abs(d - e)) / (2.0 + distance)
