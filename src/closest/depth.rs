@@ -203,7 +203,8 @@ fn grow<R: Real>(
             surface.measure_closely(nearest);
         }
     }
-    best
+    // bounds that cross say that rounding turned the surface inside out: nothing is proved
+    best.filter(|b| b.lower <= b.upper + R::from(pair.error(b.lower.to_f64())))
 }
 
 /// Four points of the difference that span space, from the given ones; or the answer, where a direction

@@ -15,6 +15,10 @@ use crate::math::double_double::{DoubleDouble, Real};
 /// Points are remembered that have a triangle within this many depths [-]. Larger: more points to take in
 /// again each time; smaller: more to find.
 const CORE_REACH: f64 = 1.1;
+/// Part of the sphere about the origin that a triangle may hide whose orientation is rounding [sr]: a
+/// thousand of them stay far below the whole. Larger: a surface may be said to go around the origin that does not.
+/// Smaller: more overlaps are repeated in double-double.
+const HIDDEN: f64 = 1e-6;
 /// Of so many points the first are looked at when a surface is packed [-].
 const LOOKED_AT: usize = 64;
 
@@ -281,17 +285,23 @@ impl<R: Real> Surface<R> {
         self.triangles[triangle] = copy;
     }
 
+    /// The best of the normals through the closest point. One that turns the triangle over counts only where
+    /// the triangle hides next to nothing of the sphere: else what faces the origin would count as facing
+    /// away, and a surface as going around.
     fn close_up(&self, t: &mut Triangle<R>) {
         let Closest::At { point, normal } = self.simplex(t.corners).reduce() else { return };
+        let [a, b, c] = t.corners.map(|k| self.points[k as usize]);
+        let area = triangle_normal(&a, &b, &c).norm();
         for n in [point, normal] {
             let length = n.norm();
             if length == R::from(0.0) {
                 continue;
             }
             let n = n.scaled(R::from(1.0) / length);
-            let heights = t.corners.map(|k| n.dot(&self.points[k as usize]));
+            let heights = [n.dot(&a), n.dot(&b), n.dot(&c)];
             let distance = least(heights);
-            if distance > t.distance || t.normal == Vec3::zero() {
+            let is_oriented = n.dot(&t.normal) > R::from(0.0) || area <= R::from(HIDDEN) * distance * distance;
+            if is_oriented && (distance > t.distance || t.normal == Vec3::zero()) {
                 (t.normal, t.distance, t.top) = (n, distance, most(heights));
             }
         }
@@ -394,4 +404,46 @@ fn most<R: Real>([a, b, c]: [R; 3]) -> R {
 fn least<R: Real>([a, b, c]: [R; 3]) -> R {
     let ab = if a < b { a } else { b };
     if ab < c { ab } else { c }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Seen from the origin, a tetrahedron beside it has faces that look at it. Measured through its closest
+    /// point, such a face must not come out as facing away: the surface would count as going around.
+    #[test]
+    fn a_face_towards_the_origin_is_never_turned_over() {
+        let mut simplex = Simplex::empty();
+        for (k, p) in (0..).zip([[1.0, 0.25, 0.0], [2.0, 1.0, 0.0], [2.0, -1.0, 0.0], [2.0, 0.0, 1.0]]) {
+            simplex.push([k, k], Vec3(p));
+        }
+        let mut surface = Surface::new();
+        surface.begin(&simplex);
+        let towards: Vec<usize> = (0..4).filter(|&k| surface.triangles[k].distance < 0.0).collect();
+        assert!(!towards.is_empty());
+        for k in towards {
+            surface.measure_closely(k);
+            assert!(surface.triangles[k].distance < 0.0, "{:?}", surface.triangles[k]);
+        }
+    }
+
+    /// What was packed comes back with its triangles, and grows as if it had never been away.
+    #[test]
+    fn a_restored_surface_knows_its_neighbours() {
+        let mut simplex = Simplex::empty();
+        for (k, p) in (0..).zip([[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]]) {
+            simplex.push([k, k], Vec3(p));
+        }
+        let mut surface = Surface::new();
+        surface.begin(&simplex);
+        let across = |surface: &Surface<f64>| surface.triangles.iter().map(|t| t.across).collect::<Vec<_>>();
+        let known = across(&surface);
+        surface.linked = false;
+        surface.link();
+        assert_eq!(across(&surface), known);
+        assert!(surface.take_in([4, 4], Vec3([3.0, 3.0, -3.0])));
+        let packed = surface.pack().unwrap();
+        assert_eq!((packed.ids().count(), packed.triangles().count()), (5, 6));
+    }
 }
