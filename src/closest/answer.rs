@@ -61,7 +61,7 @@ impl Feature {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Accuracy {
     /// At an interval as narrow as rounding allows. Of the size, which is both radii plus the distance of
-    /// the centres, it is at most 16 ε for polyhedra, balls and capsules, mostly 9 to 13, and up to 18 ε
+    /// the centres, it is at most 16 ε for polyhedra, balls and capsules, mostly 9 to 13, and up to 19 ε
     /// for an overlap about as deep as both radii; 23 ε for curved bodies and pieces of compounds, 36 ε with
     /// half spaces.
     #[default]
