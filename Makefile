@@ -25,8 +25,8 @@ $(BIN)/python:
 python: $(BIN)/python
 	$(BIN)/python -m pip install --quiet --upgrade pip
 	MATURIN_PEP517_ARGS="--profile dev" $(BIN)/python -m pip install --quiet --force-reinstall ".[dev]"
-	$(BIN)/ruff check python examples
-	$(BIN)/ruff format --check python examples
+	$(BIN)/ruff check python examples benches
+	$(BIN)/ruff format --check python examples benches
 	$(BIN)/python -m mypy.stubtest bryla
 	$(BIN)/python -m pytest -q python/tests
 

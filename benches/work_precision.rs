@@ -15,8 +15,16 @@ const RESULTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/results");
 /// Steps of each method, as halvings of the span's thousandth part, from 8 times as long on.
 const HALVINGS: i32 = 9;
 /// Methods in the figures: more lines are not told apart.
-const SHOWN: [Method; 7] =
-    [Method::Euler, Method::Heun, Method::Rk4, Method::Tsit5, Method::Dop853, Method::Split4, Method::Cf4];
+const SHOWN: [Method; 8] = [
+    Method::Euler,
+    Method::Heun,
+    Method::Rk4,
+    Method::Tsit5,
+    Method::Dop853,
+    Method::Split4,
+    Method::Cf4,
+    Method::Taylor,
+];
 /// Tolerances of the methods that choose their steps by them.
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
@@ -68,8 +76,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let least = table.rows.iter().filter_map(|row| row.error).fold(f64::INFINITY, f64::min);
             println!("{name:<16} {:<20} least error {least:.1e} against {}", method.name(), table.reference);
 
-            // of the methods by tolerance, the best one
-            let by_tolerance = |row: &Row| row.tolerance.is_none() || method == Method::Dop853;
+            // of the methods by tolerance, the best two
+            let by_tolerance =
+                |row: &Row| row.tolerance.is_none() || [Method::Dop853, Method::Taylor].contains(&method);
             if SHOWN.contains(&method) {
                 let rows = table.rows.iter().filter(|row| by_tolerance(row)).cloned();
                 match &mut shown {

@@ -42,6 +42,7 @@ struct Chunk {
     momentum: [Lane; 3],
     inv_mass: Lane,
     inv_moments: [Lane; 3],
+    gaps: [Lane; 3],
 }
 
 /// Free bodies that fly on their own, advanced together.
@@ -75,7 +76,8 @@ impl Batch {
         for (bodies, charts) in bodies.chunks(LANES).zip(charts.chunks(LANES)) {
             let zero = [0.0; LANES];
             let state = State { y: [zero; 10], rest: [zero; 10] };
-            let mut chunk = Chunk { state, momentum: [zero; 3], inv_mass: zero, inv_moments: [zero; 3] };
+            let [momentum, inv_moments, gaps] = [[zero; 3]; 3];
+            let mut chunk = Chunk { state, momentum, inv_mass: zero, inv_moments, gaps };
             for lane in 0..LANES {
                 let place = lane.min(bodies.len() - 1);
                 let mut y = [0.0; 13];
@@ -88,9 +90,11 @@ impl Batch {
                     }
                 }
                 if let Chart::Free(free) = &charts[place] {
-                    let (inv_mass, inv_moments) = free.inverses();
+                    let (inv_mass, inv_moments, gaps) = free.inverses();
                     chunk.inv_mass[lane] = inv_mass;
-                    (0..3).for_each(|i| chunk.inv_moments[i][lane] = inv_moments[i]);
+                    for i in 0..3 {
+                        (chunk.inv_moments[i][lane], chunk.gaps[i][lane]) = (inv_moments[i], gaps[i]);
+                    }
                 }
             }
             chunks.push(chunk);
@@ -170,9 +174,9 @@ impl Chunk {
         let (mut other, mut stray) = (self.state.clone(), [0.0; LANES]);
         let (mut from, mut to) = (&mut self.state, &mut other);
         for _ in 0..steps {
-            step::<false>(from, to, h, &drift, &self.inv_moments, &mut stray);
+            step::<false>(from, to, h, &drift, &self.inv_moments, &self.gaps, &mut stray);
             if !stray.iter().fold(true, |near, e| near & (e.abs() < SMALL_STRAY)) {
-                step::<true>(from, to, h, &drift, &self.inv_moments, &mut stray);
+                step::<true>(from, to, h, &drift, &self.inv_moments, &self.gaps, &mut stray);
             }
             std::mem::swap(&mut from, &mut to);
         }
@@ -182,7 +186,7 @@ impl Chunk {
     }
 }
 
-/// One step of every body of a chunk; `|q|² − 1` before q is put back on its sphere is left in `stray`. Only where it
+/// One step of every body of a chunk; `|q|² − 1` of its start, which it takes away, is left in `stray`. Only where it
 /// may be `far` is a square root taken.
 #[inline(never)]
 fn step<const FAR: bool>(
@@ -191,6 +195,7 @@ fn step<const FAR: bool>(
     h: f64,
     drift: &[Lane; 3],
     inv_moments: &[Lane; 3],
+    gaps: &[Lane; 3],
     stray: &mut Lane,
 ) {
     for l in 0..LANES {
@@ -203,20 +208,20 @@ fn step<const FAR: bool>(
         let at: [f64; 7] = std::array::from_fn(|i| from.y[3 + i][l]);
         let inverse = std::array::from_fn(|i| inv_moments[i][l]);
         let stage = |a: f64, k: &[f64; 7]| std::array::from_fn::<f64, 7, _>(|i| at[i] + a * k[i]);
-        let k1 = rate(&at, &inverse);
-        let k2 = rate(&stage(0.5 * h, &k1), &inverse);
-        let k3 = rate(&stage(0.5 * h, &k2), &inverse);
-        let k4 = rate(&stage(h, &k3), &inverse);
+        let gap = std::array::from_fn(|i| gaps[i][l]);
+        let k1 = rate(&at, &inverse, &gap);
+        let k2 = rate(&stage(0.5 * h, &k1), &inverse, &gap);
+        let k3 = rate(&stage(0.5 * h, &k2), &inverse, &gap);
+        let k4 = rate(&stage(h, &k3), &inverse, &gap);
         let mut dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
 
-        // the change of q is amended so that it ends on the sphere, as the projection of one body does
-        let q: [f64; 4] = std::array::from_fn(|i| at[i] + (dy[i] + from.rest[3 + i][l]));
-        let e = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
+        // the change of q is amended as the projection of one body does
+        let e = (at[0] * at[0] + at[1] * at[1]) + (at[2] * at[2] + at[3] * at[3]) - 1.0;
         stray[l] = e;
         let near = !FAR || e.abs() < SMALL_STRAY;
         let c = if near { small_correction(e) } else { large_correction(e) };
-        for (dy, q) in dy.iter_mut().zip(q) {
-            *dy += c * q;
+        for (dy, q) in dy[..4].iter_mut().zip(at) {
+            *dy = (1.0 + c) * *dy + c * q;
         }
         for (i, dy) in dy.into_iter().enumerate() {
             add(3 + i, dy);
@@ -224,19 +229,18 @@ fn step<const FAR: bool>(
     }
 }
 
-/// Rates of q and L in principal axes: `dq/dt = ½ q [0, ω]`, `dL/dt = L × ω`, `ω_i = L_i/I_i`.
+/// Rates of q and L in principal axes: `dq/dt = ½ q [0, ω]`, `dL_i/dt = (1/I_k − 1/I_j) L_j L_k`, `ω_i = L_i/I_i`.
 #[inline(always)]
-fn rate(&[s, x, y, z, a, b, c]: &[f64; 7], inverse: &[f64; 3]) -> [f64; 7] {
-    let (u, v, w) = (inverse[0] * a, inverse[1] * b, inverse[2] * c);
+fn rate(&[s, x, y, z, a, b, c]: &[f64; 7], inverse: &[f64; 3], gaps: &[f64; 3]) -> [f64; 7] {
+    let (u, v, w) = (0.5 * (inverse[0] * a), 0.5 * (inverse[1] * b), 0.5 * (inverse[2] * c));
     [
-        -0.5 * (u * x + v * y + w * z),
-        0.5 * (s * u - (v * z - w * y)),
-        0.5 * (s * v - (w * x - u * z)),
-        0.5 * (s * w - (u * y - v * x)),
-        // no torque: a sum with 0 is what one body does, and −0 becomes 0
-        (b * w - c * v) + 0.0,
-        (c * u - a * w) + 0.0,
-        (a * v - b * u) + 0.0,
+        -(u * x + v * y + w * z),
+        s * u - (v * z - w * y),
+        s * v - (w * x - u * z),
+        s * w - (u * y - v * x),
+        gaps[0] * (b * c),
+        gaps[1] * (c * a),
+        gaps[2] * (a * b),
     ]
 }
 

@@ -99,6 +99,7 @@ impl Scene {
         let base = RunOptions {
             tolerance: None,
             t_eval: None,
+            order: None,
             estimate: false,
             record: Record::End,
             events: Vec::new(),
@@ -125,7 +126,8 @@ impl Scene {
             let paces =
                 if method == Method::Exact { vec![(None, None)] } else { by_step.chain(by_tolerance).collect() };
             for (step, tolerance) in paces {
-                let run = RunOptions { method: Some(method), step, tolerance, ..base.clone() };
+                let order = options.run.order.filter(|&order| method.allows_order(order).is_some());
+                let run = RunOptions { method: Some(method), order, step, tolerance, ..base.clone() };
                 let plan = match self.compile(&run) {
                     Err(_) if options.methods.is_empty() => break,
                     plan => plan?,

@@ -28,8 +28,7 @@
 //!
 //! # What it does not do
 //!
-//! Bodies that merge, bodies moved along a prescribed motion, contact of bodies of fewer freedoms: such scenes
-//! are refused when they are compiled. Large piles are slow. Where a contact cannot be followed, a named error
+//! Contact of bodies of fewer freedoms: such scenes are refused when they are compiled. Large piles are slow. Where a contact cannot be followed, a named error
 //! carries the trajectory so far. Bodies are rigid.
 //!
 //! # Map
@@ -83,7 +82,7 @@ pub use effect::{
     Wrench,
 };
 pub use error::{Error, Result};
-pub use freedom::Freedom;
+pub use freedom::{Freedom, Prescribed};
 pub use impact::Finder;
 pub use integrator::Method;
 pub use mass::MassProperties;

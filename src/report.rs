@@ -48,6 +48,10 @@ pub struct Report {
     pub impacts: u64,
     /// Rounds of the finder, over all impacts.
     pub impact_iterations: u64,
+    /// Instants of impact at which a point took a blow because its gap was below `ε_touch`
+    /// ([`TOUCH_GAP`](crate::tolerance::TOUCH_GAP)), though above ε: a landing that is flat to that angle, bodies that
+    /// are hit together. With another `ε_touch` they come out differently.
+    pub touch_impacts: u64,
     /// Time spent by stage.
     pub seconds: Seconds,
 }
@@ -68,6 +72,7 @@ impl Report {
             counts: Counts::default(),
             impacts: 0,
             impact_iterations: 0,
+            touch_impacts: 0,
             seconds: Seconds::default(),
         }
     }
@@ -103,6 +108,9 @@ impl fmt::Display for Report {
         }
         if self.impacts > 0 {
             write!(f, ", {} impacts ({} rounds of the finder)", self.impacts, self.impact_iterations)?;
+            if self.touch_impacts > 0 {
+                write!(f, ", {} of them hang on ε_touch", self.touch_impacts)?;
+            }
         }
         writeln!(f)?;
         let Seconds { compile, run, estimate } = self.seconds;

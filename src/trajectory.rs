@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
+use crate::freedom::riding::follow;
 use crate::integrator::{Problem, Segment};
 use crate::math::roots::Passage;
+use crate::math::sum::Time;
 use crate::math::{Pose, Vector3};
 use crate::plan::{Any, Binding, Group, Plan};
 use crate::report::Report;
@@ -21,7 +23,8 @@ mod saved;
 pub enum EventKind {
     /// A body rebounded.
     Bounce,
-    /// A body came to rest on another.
+    /// A body stuck to another: to a fixed one, where it stops, or to one that moves, and both are one body from
+    /// here on.
     Stick,
     /// Bodies stay in contact from here on: they slide, roll or tip on each other.
     Contact,
@@ -85,6 +88,24 @@ pub struct Event {
 }
 
 impl Event {
+    /// An event at `time` [s] between two bodies a and b, with their motions before and after; the rest is nothing.
+    pub(crate) fn between(
+        time: f64,
+        kind: EventKind,
+        bodies: [usize; 2],
+        a: [&BodyMotion; 2],
+        b: [&BodyMotion; 2],
+    ) -> Self {
+        Self {
+            passage: None,
+            velocity: b.map(|b| b.velocity),
+            angular_velocity: b.map(|b| b.angular_velocity),
+            other_velocity: a.map(|a| a.velocity),
+            other_angular_velocity: a.map(|a| a.angular_velocity),
+            ..Self::watched(time, kind, String::new(), Passage::Rising, bodies)
+        }
+    }
+
     /// An event at `time` [s] that is no impact, of these two bodies.
     pub(crate) fn watched(time: f64, kind: EventKind, name: String, passage: Passage, bodies: [usize; 2]) -> Self {
         let nothing = Vector3::zeros();
@@ -108,7 +129,8 @@ impl Event {
     }
 }
 
-/// Heat of contacts outside of events: of friction over a time, of what gentle impacts take at once.
+/// Energy that passes in contacts, over a time or at once: heat of friction and of gentle impacts, work of bodies
+/// that are moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Heat {
@@ -123,7 +145,7 @@ pub(crate) struct Heat {
 }
 
 impl Heat {
-    /// Heat of an instant [s], [J].
+    /// What passes at an instant [s], [J].
     pub(crate) fn at(time: f64, joules: f64) -> Self {
         Self { from: time, to: time, joules, power: [0.0; 2] }
     }
@@ -156,37 +178,58 @@ pub(crate) struct Phase {
     #[cfg_attr(feature = "serde", serde(default))]
     pub(crate) off: Vec<usize>,
     pub(crate) segments: Vec<Segment>,
-    /// The motions it started with; they stay where there is nothing to integrate.
+    /// The motions it started with; they stay where there is nothing to integrate. Where the group's body is part
+    /// of a compound, this stands before it, as in `charts`.
     pub(crate) motions: Vec<BodyMotion>,
 }
 
 impl Phase {
+    /// Whether the group's body is part of a compound.
+    pub(crate) fn has_parts(&self) -> bool {
+        self.charts.iter().any(|chart| matches!(chart, Chart::Riding(_)))
+    }
+
     /// The motions of the group's members at `t` [s], from a segment that holds it.
     fn read(&self, segment: &Segment, t: f64, motions: &mut Vec<BodyMotion>) {
         motions.clone_from(&self.motions);
         let mut y = vec![0.0; segment.dimension];
         segment.at(t, &mut y);
         decode(&self.charts, &y, motions);
+        self.leave_compound(motions);
+    }
+
+    /// Of all motions those of the group's members.
+    fn leave_compound(&self, motions: &mut Vec<BodyMotion>) {
+        if self.has_parts() {
+            motions.remove(0);
+        }
     }
 
     /// The same at any time of the phase; the last state stays after its end.
     fn at(&self, t: f64, motions: &mut Vec<BodyMotion>) {
         let after = self.segments.partition_point(|segment| segment.end <= t);
-        match self.segments.get(after).or(self.segments.last()) {
-            Some(segment) => self.read(segment, t.clamp(segment.start, segment.end), motions),
-            None => motions.clone_from(&self.motions),
+        if let Some(segment) = self.segments.get(after).or(self.segments.last()) {
+            return self.read(segment, t.clamp(segment.start, segment.end), motions);
         }
+        motions.clone_from(&self.motions);
+        self.leave_compound(motions);
     }
+}
+
+/// The states at `t` [s] of bodies that nothing integrates; those of the start of all others.
+fn unmoved(plan: &Plan, t: f64) -> Vec<BodyState> {
+    plan.bodies().iter().map(|body| body.motion_at(Time::new(t)).state()).collect()
 }
 
 /// Reads the motion of every body from the numbers.
 pub(crate) fn decode(charts: &[Chart], y: &[f64], motions: &mut [BodyMotion]) {
     let mut at = 0;
-    for (chart, motion) in charts.iter().zip(motions) {
+    for (chart, motion) in charts.iter().zip(&mut *motions) {
         let n = chart.dimension();
         chart.decode(&y[at..at + n], motion);
         at += n;
     }
+    follow(charts, motions);
 }
 
 /// Energy of the whole scene at every sample [J]; kinetic + potential + dissipated − work stays.
@@ -234,6 +277,8 @@ pub struct Trajectory {
     pub(crate) phases: Vec<Phase>,
     pub(crate) events: Vec<Event>,
     pub(crate) heat: Vec<Heat>,
+    /// Work that bodies on prescribed motions do on others.
+    pub(crate) work: Vec<Heat>,
     pub(crate) report: Report,
     /// How far the motion is known [s].
     pub(crate) end: f64,
@@ -244,8 +289,7 @@ pub struct Trajectory {
 impl Trajectory {
     /// An empty trajectory for samples at `times`.
     pub(crate) fn new(plan: Arc<Plan>, times: Vec<f64>) -> Self {
-        let rest: Vec<_> = plan.bodies().iter().map(|body| body.start.state()).collect();
-        let states = rest.iter().cycle().take(times.len() * rest.len()).copied().collect();
+        let states = times.iter().flat_map(|&t| unmoved(&plan, t)).collect();
         let end = times.first().copied().unwrap_or_default();
         let report = Report::new(&plan);
         Self {
@@ -255,6 +299,7 @@ impl Trajectory {
             phases: Vec::new(),
             events: Vec::new(),
             heat: Vec::new(),
+            work: Vec::new(),
             report,
             end,
             ended_by: None,
@@ -325,9 +370,14 @@ impl Trajectory {
     /// Cuts the samples that come after `end` [s], where a run broke off.
     pub(crate) fn cut(&mut self, end: f64) {
         self.end = end;
+        let bodies = self.plan.bodies().len();
+        let is_finite =
+            |sample: usize| self.states[sample * bodies..(sample + 1) * bodies].iter().all(BodyState::is_finite);
         let kept = self.times.partition_point(|&t| t <= end);
+        // of a step that broke off, a sample may be no number
+        let kept = (0..kept).find(|&sample| !is_finite(sample)).unwrap_or(kept);
         self.times.truncate(kept);
-        self.states.truncate(kept * self.plan.bodies().len());
+        self.states.truncate(kept * bodies);
     }
 
     /// Ends the run where an event did, at `end` [s], with a sample there; or leaves it as it is.
@@ -392,7 +442,8 @@ impl Trajectory {
 
     /// Motion of every body at a sample, in the scene's order.
     pub fn motions(&self, sample: usize) -> Vec<BodyMotion> {
-        self.plan.bodies().iter().zip(self.states(sample)).map(|(body, state)| body.motion(state)).collect()
+        let t = self.times[sample];
+        self.plan.bodies().iter().zip(self.states(sample)).map(|(body, state)| body.motion(state, t)).collect()
     }
 
     /// One body.
@@ -426,7 +477,7 @@ impl Trajectory {
 
     /// State of every body at any time [s] that the steps kept hold.
     fn motion_at(&self, t: f64) -> Vec<BodyState> {
-        let mut states: Vec<_> = self.plan.bodies().iter().map(|body| body.start.state()).collect();
+        let mut states = unmoved(&self.plan, t);
         let mut motions = Vec::new();
         for (group, spec) in self.plan.groups().iter().enumerate() {
             let Some(phase) = self.phases.iter().rfind(|p| p.group == group && p.start <= t) else { continue };
@@ -498,19 +549,24 @@ impl Trajectory {
             energy.dissipated[after..].iter_mut().for_each(|d| *d += event.energy_lost);
         }
 
-        // friction's heat, within a step in proportion to time
-        let longest = self.heat.iter().map(|heat| heat.to - heat.from).fold(0.0, f64::max);
+        self.add_passed(&self.heat, &mut energy.dissipated);
+        self.add_passed(&self.work, &mut energy.work);
+        Ok(energy)
+    }
+
+    /// Adds to every sample what has passed in contacts by then.
+    fn add_passed(&self, all: &[Heat], samples: &mut [f64]) {
+        let longest = all.iter().map(|heat| heat.to - heat.from).fold(0.0, f64::max);
         let (mut next, mut done) = (0, 0.0);
-        for (sample, &t) in self.times.iter().enumerate() {
-            while let Some(heat) = self.heat.get(next).filter(|heat| heat.to <= t) {
+        for (sum, &t) in samples.iter_mut().zip(&self.times) {
+            while let Some(heat) = all.get(next).filter(|heat| heat.to <= t) {
                 done += heat.joules;
                 next += 1;
             }
-            let open = self.heat[next..].iter().take_while(|heat| heat.to <= t + longest);
+            let open = all[next..].iter().take_while(|heat| heat.to <= t + longest);
             let part = open.filter(|heat| heat.from < t).map(|heat| heat.until(t));
-            energy.dissipated[sample] += done + part.sum::<f64>();
+            *sum += done + part.sum::<f64>();
         }
-        Ok(energy)
     }
 
     /// Integrals of dissipated power and work over the motion of one group.
@@ -571,7 +627,8 @@ impl Trajectory {
     /// As [`at`](Self::at).
     pub fn reactions_at(&self, t: f64) -> Result<Vec<Load>> {
         let states = self.at(t)?;
-        let motions: Vec<_> = self.plan.bodies().iter().zip(&states).map(|(body, state)| body.motion(state)).collect();
+        let motions: Vec<_> =
+            self.plan.bodies().iter().zip(&states).map(|(body, state)| body.motion(state, t)).collect();
         Ok(self.reactions_of(t, &motions))
     }
 
@@ -579,6 +636,9 @@ impl Trajectory {
         let mut reactions = vec![Load::zero(); self.plan.bodies().len()];
         for (index, spec) in self.plan.groups().iter().enumerate() {
             let Some(phase) = self.phases.iter().rfind(|p| p.group == index && p.start <= time) else { continue };
+            if phase.has_parts() {
+                continue; // what holds a part is its compound, not its freedom
+            }
             let motions: Vec<_> = spec.members.iter().map(|&i| all[i]).collect();
             let mut group = Group::<Any>::new(phase.charts.clone(), motions, spec.bindings.clone());
             group.leave_out(&phase.off);
@@ -623,7 +683,7 @@ impl BodyTrajectory<'_> {
     /// # Errors
     /// As [`Trajectory::at`].
     pub fn at(&self, t: f64) -> Result<BodyMotion> {
-        Ok(self.run.plan.bodies()[self.index].motion(&self.run.at(t)?[self.index]))
+        Ok(self.run.plan.bodies()[self.index].motion(&self.run.at(t)?[self.index], t))
     }
 
     /// Its centre of mass at a time `t` [s] of the run [m].

@@ -36,6 +36,8 @@ _Method: TypeAlias = Literal[
     "cf4",
     "buss2",
     "radau5",
+    "taylor",
+    "dmv",
     "exact",
 ]
 _Response: TypeAlias = Literal["bounce", "stick"]
@@ -1081,6 +1083,51 @@ class Axle:
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
+class Prescribed:
+    """A motion that nothing disturbs: a turntable, a conveyor, a bat.
+
+    The body point center moves with velocity, the body turns about it with angular_velocity, both times a factor
+    that is constant between the times of the schedule. Position and orientation of the body are those at time 0.
+
+    Parameters
+    ----------
+    velocity : 3 numbers
+        Velocity of the point center, world axes [m/s].
+    angular_velocity : 3 numbers
+        Angular velocity, world axes [rad/s].
+    center : 3 numbers
+        The point that the body turns about, shape axes [m].
+    schedule : list of (time, factor), optional
+        Factor of both velocities: 0 before the first time [s], held after the last; 1 always, if absent.
+    """
+
+    def __new__(
+        cls,
+        *,
+        velocity: _Numbers = (0.0, 0.0, 0.0),
+        angular_velocity: _Numbers = (0.0, 0.0, 0.0),
+        center: _Numbers = (0.0, 0.0, 0.0),
+        schedule: _Rows | None = None,
+    ) -> Prescribed: ...
+    @property
+    def velocity(self) -> _Vector:
+        """Velocity of the point center, world axes [m/s]."""
+
+    @property
+    def angular_velocity(self) -> _Vector:
+        """Angular velocity, world axes [rad/s]."""
+
+    @property
+    def center(self) -> _Vector:
+        """The point that the body turns about, shape axes [m]."""
+
+    @property
+    def schedule(self) -> list[tuple[float, float]] | None:
+        """Factor of both velocities: (time [s], factor), or None."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
 class Body:
     """One body: shape, mass, start and material. SI units, angles in radians.
 
@@ -1118,6 +1165,8 @@ class Body:
         What happens when it touches another body.
     fixed : bool
         Whether it stays where it is.
+    motion : Prescribed, optional
+        The motion that it is moved along, whatever it meets.
     freedom : "free", Planar, Pivot or Axle
         How it may move.
     collides : bool
@@ -1142,6 +1191,7 @@ class Body:
         restitution: _Number = 0.0,
         response: _Response = "bounce",
         fixed: bool = False,
+        motion: Prescribed | None = None,
         freedom: _Freedom = "free",
         collides: bool = True,
     ) -> Body: ...
@@ -1204,6 +1254,10 @@ class Body:
     @property
     def fixed(self) -> bool:
         """Whether it stays where it is."""
+
+    @property
+    def motion(self) -> Prescribed | None:
+        """The motion that it is moved along, or None."""
 
     @property
     def freedom(self) -> _Freedom:
@@ -1315,6 +1369,7 @@ class Scene:
         *,
         tolerance: _Number | None = None,
         method: _Method | None = None,
+        order: int | None = None,
         step: _Number | None = None,
         t_eval: _Numbers | None = None,
         estimate: bool | None = None,
@@ -1338,6 +1393,7 @@ class Scene:
         *,
         tolerance: _Number | None = None,
         method: _Method | None = None,
+        order: int | None = None,
         step: _Number | None = None,
         t_eval: _Numbers | None = None,
         estimate: bool | None = None,
@@ -1367,6 +1423,9 @@ class Scene:
             Error that the result may have: of positions over length_scale, of orientations in radians [-].
         method : str, optional
             Method of integration, one of METHODS; "auto" (default) lets the plan choose.
+        order : int, optional
+            Order of the methods "taylor" (by default that which the tolerance calls for, 8 where the step is given)
+            and "dmv" (10).
         step : float, optional
             Length of a step [s].
         t_eval : array of float, optional
@@ -1414,6 +1473,7 @@ class Scene:
         steps: _Numbers | None = None,
         tolerances: _Numbers | None = None,
         repeats: int = 5,
+        order: int | None = None,
         length_scale: _Number | None = None,
         orientation: _Orientation | None = None,
         projection: bool | None = None,
@@ -1439,7 +1499,7 @@ class Scene:
             not estimated in these runs, which costs extra.
         repeats : int
             How often each run is timed; the least and the middle time are kept.
-        length_scale, orientation, projection, finder, eps, restitution_law
+        order, length_scale, orientation, projection, finder, eps, restitution_law
             As in run.
         progress : bool
             Whether a progress line is shown on a terminal.
@@ -1482,7 +1542,8 @@ class Plan:
 
     def predict(self, t_span: tuple[_Number, _Number] | None = None) -> tuple[float, float, float] | None:
         """Steps and time [s] that a run over a span is predicted to take: (steps, run, estimate), by the same
-        table as in explain; None where a function of the user has its own price.
+        table as in explain. Where a function of the user is called, some steps are taken to time them. None where
+        contacts cannot be foreseen, and where a step breaks off.
         """
 
     def __eq__(self, value: object, /) -> bool: ...
@@ -1853,6 +1914,14 @@ class Report:
     @property
     def impact_iterations(self) -> int:
         """Rounds of the finder, over all impacts."""
+
+    @property
+    def touch_impacts(self) -> int:
+        """Instants of impact at which a point took a blow only because its gap was below the touch gap.
+
+        A landing that is flat to that angle, bodies that are hit together: with another touch gap, 1e-9 of the size,
+        they come out differently.
+        """
 
     @property
     def seconds(self) -> Seconds:

@@ -1,7 +1,7 @@
 //! Bodies, and their motion at an instant.
 
 use bryla::math::quaternion;
-use bryla::{Body, BodyMotion, Freedom, Response, Shape};
+use bryla::{Body, BodyMotion, Freedom, Prescribed, Response, Shape};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -47,6 +47,8 @@ plain_class! {
     ///     What happens when it touches another body.
     /// fixed : bool
     ///     Whether it stays where it is.
+    /// motion : Prescribed, optional
+    ///     The motion that it is moved along, whatever it meets.
     /// freedom : "free", Planar, Pivot or Axle
     ///     How it may move.
     /// collides : bool
@@ -54,9 +56,9 @@ plain_class! {
     class "Body" PyBody(Body)
     (name, shape=None, *, density=None, mass=None, inertia=None, position=None, origin=None,
      orientation=Numbers([1.0, 0.0, 0.0, 0.0]), velocity=None, angular_velocity=None, angular_velocity_body=None,
-     friction=0.0, restitution=0.0, response=Response::Bounce.to_python(), fixed=false,
+     friction=0.0, restitution=0.0, response=Response::Bounce.to_python(), fixed=false, motion=None,
      freedom=AnyFreedom(Freedom::Free), collides=true)
-    as "(name, shape=None, *, density=None, mass=None, inertia=None, position=None, origin=None, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None, angular_velocity=None, angular_velocity_body=None, friction=0.0, restitution=0.0, response='bounce', fixed=False, freedom='free', collides=True)"
+    as "(name, shape=None, *, density=None, mass=None, inertia=None, position=None, origin=None, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None, angular_velocity=None, angular_velocity_body=None, friction=0.0, restitution=0.0, response='bounce', fixed=False, motion=None, freedom='free', collides=True)"
     {
         /// A name that no other body of the scene has.
         name: String,
@@ -88,6 +90,8 @@ plain_class! {
         response: Response,
         /// Whether it stays where it is.
         fixed: bool,
+        /// The motion that it is moved along, or None.
+        motion: Option<Prescribed>,
         /// How it may move: "free", Planar, Pivot or Axle.
         freedom: Freedom,
         /// Whether its shape meets other bodies.

@@ -1,11 +1,11 @@
 //! Freedoms: how a body may move.
 
-use bryla::Freedom;
-use bryla::freedom::{Axle, Pivot, Planar};
+use bryla::freedom::{Axle, Pivot, Planar, Prescribed};
+use bryla::{Freedom, Schedule};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::convert::{Plain, plain_class};
+use crate::convert::{Numbers, Plain, plain_class};
 use crate::error::{Failure, Result};
 
 plain_class! {
@@ -48,6 +48,71 @@ plain_class! {
         point_body: [f64; 3],
         /// Direction of the axis, body axes.
         axis_body: [f64; 3],
+    }
+}
+
+plain_class! {
+    /// A motion that nothing disturbs: a turntable, a conveyor, a bat.
+    ///
+    /// The body point center moves with velocity, the body turns about it with angular_velocity, both times a factor
+    /// that is constant between the times of the schedule. Position and orientation of the body are those at time 0.
+    ///
+    /// Parameters
+    /// ----------
+    /// velocity : 3 numbers
+    ///     Velocity of the point center, world axes [m/s].
+    /// angular_velocity : 3 numbers
+    ///     Angular velocity, world axes [rad/s].
+    /// center : 3 numbers
+    ///     The point that the body turns about, shape axes [m].
+    /// schedule : list of (time, factor), optional
+    ///     Factor of both velocities: 0 before the first time [s], held after the last; 1 always, if absent.
+    class "Prescribed" PyPrescribed(Prescribed)
+    (*, velocity=Numbers([0.0; 3]), angular_velocity=Numbers([0.0; 3]), center=Numbers([0.0; 3]), schedule=None)
+    as "(*, velocity=(0.0, 0.0, 0.0), angular_velocity=(0.0, 0.0, 0.0), center=(0.0, 0.0, 0.0), schedule=None)"
+    {
+        /// Velocity of the point center, world axes [m/s].
+        velocity: [f64; 3],
+        /// Angular velocity, world axes [rad/s].
+        angular_velocity: [f64; 3],
+        /// The point that the body turns about, shape axes [m].
+        center: [f64; 3],
+        /// Factor of both velocities: (time [s], factor), or None.
+        schedule: Option<Schedule>,
+    }
+}
+
+/// A motion as an argument or a value.
+#[derive(Debug, Clone)]
+pub(crate) struct AnyPrescribed(Prescribed);
+
+impl Plain for Prescribed {
+    type Value = AnyPrescribed;
+
+    fn to_python(&self) -> AnyPrescribed {
+        AnyPrescribed(self.clone())
+    }
+
+    fn from_python(value: AnyPrescribed) -> Result<Self> {
+        Ok(value.0)
+    }
+}
+
+impl<'py> FromPyObject<'_, 'py> for AnyPrescribed {
+    type Error = PyErr;
+
+    fn extract(obj: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self(obj.cast::<PyPrescribed>()?.get().0.clone()))
+    }
+}
+
+impl<'py> IntoPyObject<'py> for AnyPrescribed {
+    type Target = PyPrescribed;
+    type Output = Bound<'py, PyPrescribed>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        Bound::new(py, PyPrescribed(self.0))
     }
 }
 
@@ -109,5 +174,6 @@ impl Plain for Freedom {
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyPlanar>()?;
     module.add_class::<PyPivot>()?;
-    module.add_class::<PyAxle>()
+    module.add_class::<PyAxle>()?;
+    module.add_class::<PyPrescribed>()
 }

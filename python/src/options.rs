@@ -12,7 +12,8 @@ use crate::event::events;
 
 /// What the call says, and for the rest what the scene says.
 ///
-/// A tolerance in the call takes the place of the scene's step, and a step that of its tolerance.
+/// A tolerance in the call takes the place of the scene's step, and a step that of its tolerance; a method that of
+/// its order.
 pub(crate) fn run_options(scene: &RunOptions, function: &str, given: Option<&Bound<'_, PyDict>>) -> Result<RunOptions> {
     let mut options = scene.clone();
     let Some(given) = given else { return Ok(options) };
@@ -22,11 +23,15 @@ pub(crate) fn run_options(scene: &RunOptions, function: &str, given: Option<&Bou
         (false, true) => options.tolerance = None,
         _ => {}
     }
+    if said("method")? {
+        options.order = None;
+    }
     for (name, value) in given.iter().filter(|(_, value)| !value.is_none()) {
         let name: String = name.extract()?;
         match name.as_str() {
             "tolerance" => options.tolerance = Some(read(&name, &value)?),
             "method" => options.method = method(&read::<String>(&name, &value)?)?,
+            "order" => options.order = Some(read(&name, &value)?),
             "step" => options.step = Some(read(&name, &value)?),
             "t_eval" => options.t_eval = Some(read::<List<f64>>(&name, &value)?.0),
             "estimate" => options.estimate = read(&name, &value)?,

@@ -61,7 +61,8 @@ impl PyPlan {
     }
 
     /// Steps and time [s] that a run over a span is predicted to take: (steps, run, estimate), by the same
-    /// table as in explain; None where a function of the user has its own price.
+    /// table as in explain. Where a function of the user is called, some steps are taken to time them. None where
+    /// contacts cannot be foreseen, and where a step breaks off.
     #[pyo3(signature = (t_span=None))]
     fn predict(&self, py: Python<'_>, t_span: Option<(f64, f64)>) -> Result<Option<(f64, f64, f64)>> {
         let (span, costs) = (span(t_span, self.0.options())?, CostTable::of_user()?);

@@ -177,6 +177,15 @@ impl PyReport {
         self.0.impact_iterations
     }
 
+    /// Instants of impact at which a point took a blow only because its gap was below the touch gap.
+    ///
+    /// A landing that is flat to that angle, bodies that are hit together: with another touch gap, 1e-9 of the size,
+    /// they come out differently.
+    #[getter]
+    fn touch_impacts(&self) -> u64 {
+        self.0.touch_impacts
+    }
+
     /// Processor time by stage [s].
     #[getter]
     fn seconds(&self) -> PySeconds {

@@ -90,7 +90,7 @@ impl PyScene {
     /// Checks the scene and keeps what it calls for: a Plan. The options are those of `run`.
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None)"
+        text_signature = "($self, *, tolerance=None, method=None, order=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None)"
     )]
     fn compile(&self, options: Option<&Bound<'_, PyDict>>) -> Result<PyPlan> {
         let options = run_options(&self.0.run, "compile", options)?;
@@ -119,6 +119,9 @@ impl PyScene {
     ///     Error that the result may have: of positions over length_scale, of orientations in radians [-].
     /// method : str, optional
     ///     Method of integration, one of METHODS; "auto" (default) lets the plan choose.
+    /// order : int, optional
+    ///     Order of the methods "taylor" (by default that which the tolerance calls for, 8 where the step is given)
+    ///     and "dmv" (10).
     /// step : float, optional
     ///     Length of a step [s].
     /// t_eval : array of float, optional
@@ -158,7 +161,7 @@ impl PyScene {
     ///     The tolerance is not met over the whole span; report.horizon says up to when it is.
     #[pyo3(
         signature = (t_span=None, *, progress=false, **options),
-        text_signature = "($self, t_span=None, *, tolerance=None, method=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None, progress=False)"
+        text_signature = "($self, t_span=None, *, tolerance=None, method=None, order=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None, progress=False)"
     )]
     fn run(
         &self,
@@ -189,13 +192,13 @@ impl PyScene {
     ///     not estimated in these runs, which costs extra.
     /// repeats : int
     ///     How often each run is timed; the least and the middle time are kept.
-    /// length_scale, orientation, projection, finder, eps, restitution_law
+    /// order, length_scale, orientation, projection, finder, eps, restitution_law
     ///     As in run.
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     #[pyo3(
         signature = (t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, progress=false, **options),
-        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
+        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, order=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "those of the core, and two of Python")]
     fn compare(

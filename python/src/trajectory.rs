@@ -22,35 +22,35 @@ use crate::report::PyReport;
 mod quantity {
     use super::{BodyState, PlannedBody, quaternion};
 
-    pub(super) fn position(_: &PlannedBody, state: &BodyState) -> [f64; 3] {
+    pub(super) fn position(_: &PlannedBody, state: &BodyState, _: f64) -> [f64; 3] {
         state.position.into()
     }
 
-    pub(super) fn orientation(_: &PlannedBody, state: &BodyState) -> [f64; 4] {
+    pub(super) fn orientation(_: &PlannedBody, state: &BodyState, _: f64) -> [f64; 4] {
         quaternion::to_scalar_first(&state.orientation)
     }
 
-    pub(super) fn velocity(body: &PlannedBody, state: &BodyState) -> [f64; 3] {
-        body.motion(state).velocity.into()
+    pub(super) fn velocity(body: &PlannedBody, state: &BodyState, t: f64) -> [f64; 3] {
+        body.motion(state, t).velocity.into()
     }
 
-    pub(super) fn angular_velocity(body: &PlannedBody, state: &BodyState) -> [f64; 3] {
-        body.motion(state).angular_velocity.into()
+    pub(super) fn angular_velocity(body: &PlannedBody, state: &BodyState, t: f64) -> [f64; 3] {
+        body.motion(state, t).angular_velocity.into()
     }
 
-    pub(super) fn angular_velocity_body(body: &PlannedBody, state: &BodyState) -> [f64; 3] {
-        body.motion(state).angular_velocity_body().into()
+    pub(super) fn angular_velocity_body(body: &PlannedBody, state: &BodyState, t: f64) -> [f64; 3] {
+        body.motion(state, t).angular_velocity_body().into()
     }
 
-    pub(super) fn linear_momentum(_: &PlannedBody, state: &BodyState) -> [f64; 3] {
+    pub(super) fn linear_momentum(_: &PlannedBody, state: &BodyState, _: f64) -> [f64; 3] {
         state.linear_momentum.into()
     }
 
-    pub(super) fn spin_angular_momentum(_: &PlannedBody, state: &BodyState) -> [f64; 3] {
+    pub(super) fn spin_angular_momentum(_: &PlannedBody, state: &BodyState, _: f64) -> [f64; 3] {
         state.angular_momentum.into()
     }
 
-    pub(super) fn angular_momentum_body(_: &PlannedBody, state: &BodyState) -> [f64; 3] {
+    pub(super) fn angular_momentum_body(_: &PlannedBody, state: &BodyState, _: f64) -> [f64; 3] {
         quaternion::to_matrix(&state.orientation).tr_mul(&state.angular_momentum).into()
     }
 }
@@ -122,7 +122,7 @@ impl Selection {
     fn array<'py, const N: usize>(
         &self,
         py: Python<'py>,
-        quantity: fn(&PlannedBody, &BodyState) -> [f64; N],
+        quantity: fn(&PlannedBody, &BodyState, f64) -> [f64; N],
     ) -> Result<Array<'py>> {
         let bodies = &self.run.plan().bodies()[self.bodies()];
         self.collected(py, N, |sample, t, numbers| {
@@ -131,7 +131,7 @@ impl Selection {
                 _ => &self.run.at(t)?,
             };
             for (body, state) in bodies.iter().zip(&states[self.bodies()]) {
-                numbers.extend(quantity(body, state));
+                numbers.extend(quantity(body, state, t));
             }
             Ok(())
         })

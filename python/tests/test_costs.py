@@ -37,9 +37,15 @@ def test_calibration_writes_the_table_that_predictions_use(tmp_path, monkeypatch
         top().explain()
 
 
-def test_no_steps_and_own_prices_are_told():
+def test_no_steps_are_told_and_functions_are_timed():
     assert spinning_scene().compile().predict((0, 1)) == (0.0, 0.0, 0.0)
-    scene = top()
-    scene.add_effect(bryla.UserEffect(lambda t, bodies: ((0, 0, 0), (0, 0, 0))))
+    scene, calls = top(), []
+    scene.add_effect(bryla.UserEffect(lambda t, bodies: calls.append(t) or ((0, 0, 0), (0, 0, 0))))
+    steps, run, estimate = scene.compile().predict()
+    assert len(calls) >= 16
+    assert min(steps, run, estimate) > 0
+    assert " steps, " in scene.explain()
+
+    scene.add_effect(bryla.UserEffect(lambda t, bodies: None))
     assert scene.compile().predict() is None
-    assert "a function of the user has its own price" in scene.explain()
+    assert "nothing: a step breaks off" in scene.explain()

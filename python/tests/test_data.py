@@ -53,7 +53,10 @@ BODIES = [
         collides=False,
     ),
 ]
+MOVED = bryla.Prescribed(velocity=(1, 0, 0), angular_velocity=(0, 0, 2), center=(0, 1, 0), schedule=[(0, 1), (2, -0.5)])
 OTHERS = [
+    MOVED,
+    bryla.Body("moved", bryla.Sphere(1), motion=MOVED),
     bryla.Piece(bryla.Sphere(0.1), position=(1, 2, 3)),
     bryla.Pose((1, 2, 3), (0.5, 0.5, 0.5, 0.5)),
     bryla.MassProperties(2, (0, 0, 1), np.diag([1, 2, 2.5])),

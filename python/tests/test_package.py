@@ -96,6 +96,22 @@ def test_the_command_line_runs(die, tmp_path):
     assert bryla.__version__ in bryla_command("--version").stdout
 
 
+def test_the_summary_shows_the_first_events(tmp_path):
+    scene = bryla.Scene()
+    scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1)), freedom="fixed"))
+    scene.add(bryla.Body("ball", bryla.Sphere(0.1), density=500, position=(0, 0, 0.5), restitution=0.95))
+    scene.add_effect(bryla.UniformGravity())
+    scene.run_options = {"t_span": [0, 10], "estimate": False}
+    scene.save(tmp_path / "ball.toml")
+    events = len(scene.run(**scene.run_options).events)
+    assert events > 24
+    done = bryla_command("run", "ball.toml", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    shown = [line for line in done.stdout.splitlines() if "ball–floor" in line or "floor–ball" in line]
+    assert len(shown) == 24
+    assert f"{events - 24} more events: --out to .json keeps all" in done.stdout
+
+
 def test_the_front_page_example():
     import doctest
 

@@ -116,6 +116,9 @@ struct Options {
     /// Method of integration
     #[arg(long)]
     method: Option<Method>,
+    /// Order of the method taylor
+    #[arg(long, requires = "method")]
+    order: Option<u32>,
     /// Length of a step [s]
     #[arg(long, requires = "method")]
     step: Option<f64>,
@@ -131,7 +134,7 @@ struct Options {
 }
 
 impl Options {
-    /// The scene's options with these on top: a tolerance drives out a step, and a step a tolerance.
+    /// The scene's options with these on top: a tolerance drives out a step, a step a tolerance, a method its order.
     fn over(&self, scene: &RunOptions) -> RunOptions {
         let mut options = scene.clone();
         if self.tolerance.is_some() {
@@ -140,7 +143,9 @@ impl Options {
         if self.step.is_some() {
             (options.tolerance, options.step) = (None, self.step);
         }
-        options.method = self.method.or(options.method);
+        if self.method.is_some() {
+            (options.method, options.order) = (self.method, self.order);
+        }
         if self.matrix {
             options.orientation = Orientation::Matrix;
         }

@@ -28,8 +28,9 @@
 
 use super::Answer;
 use super::cluster::Velocity;
+use crate::freedom::Riding;
 use crate::mass::MassProperties;
-use crate::math::{Matrix3, Pose, Quaternion, Vector3, quaternion};
+use crate::math::{Matrix3, Pose, Vector3, quaternion};
 use crate::state::BodyMotion;
 
 /// Brings a body to rest where it is.
@@ -153,18 +154,7 @@ impl Member {
     /// The member's own motion while the compound moves with `whole`; `mass` and `inertia_body` are the
     /// member's.
     pub fn motion(&self, whole: &BodyMotion, mass: f64, inertia_body: Matrix3) -> BodyMotion {
-        let lever = whole.rotation * self.pose.position;
-        let velocity = velocity_in(whole, &lever);
-        let orientation: Quaternion = quaternion::normalized(&(whole.orientation * self.pose.orientation));
-        BodyMotion {
-            mass,
-            inertia_body,
-            position: whole.position + lever,
-            orientation,
-            rotation: quaternion::to_matrix(&orientation),
-            velocity: velocity.linear,
-            angular_velocity: velocity.angular,
-        }
+        Riding { pose: self.pose }.motion(whole, &BodyMotion::at_rest(mass, inertia_body))
     }
 }
 

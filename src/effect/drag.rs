@@ -1,8 +1,10 @@
 //! Resistance of a medium.
 
+use super::series::{Place, SeriesBody, SeriesLoad, add};
 use super::{BodyMotion, Effect, Load, Moment, Target, finite, not_negative, power_of};
 use crate::error::Result;
 use crate::math::Vector3;
+use crate::math::series::Tape;
 
 /// Drag on translation and rotation, linear and quadratic.
 ///
@@ -80,6 +82,32 @@ impl Effect for Drag {
             .iter()
             .all(|&c| c == 0.0)
             .then_some("all its coefficients are 0")
+    }
+
+    fn has_series(&self) -> bool {
+        self.quadratic == 0.0 && self.angular_quadratic == 0.0
+    }
+
+    fn add_series(&self, _at: Moment, body: &mut SeriesBody, load: &mut SeriesLoad, tape: &mut Tape) {
+        if self.linear != 0.0 {
+            let wind = tape.constant(self.linear * Vector3::from(self.wind));
+            add(tape, &mut load.force, wind);
+            match body.place {
+                Place::Moving(_, velocity) => {
+                    let force = tape.scaled(-self.linear, velocity);
+                    add(tape, &mut load.force, force);
+                }
+                Place::Arm(_, arm) => {
+                    // −k ω × r
+                    let force = tape.linear(body.angular_velocity, self.linear * arm.cross_matrix());
+                    add(tape, &mut load.force_own, force);
+                }
+            }
+        }
+        if self.angular_linear != 0.0 {
+            let torque = tape.scaled(-self.angular_linear, body.angular_velocity);
+            add(tape, &mut load.torque_own, torque);
+        }
     }
 
     fn kinks(&self, body: &BodyMotion) -> [Option<Vector3>; 2] {

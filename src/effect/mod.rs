@@ -7,11 +7,13 @@ use std::fmt::Debug;
 
 use crate::error::{Error, Result};
 use crate::math::Vector3;
+use crate::math::series::Tape;
 pub use crate::state::{BodyMotion, Load, Moment};
 
 pub mod drag;
 pub mod point_gravity;
 pub mod schedule;
+pub(crate) mod series;
 pub mod spring;
 pub mod switch;
 pub mod thruster;
@@ -22,6 +24,7 @@ pub mod wrench;
 pub use drag::Drag;
 pub use point_gravity::PointGravity;
 pub use schedule::Schedule;
+use series::{SeriesBody, SeriesLoad};
 pub use spring::Spring;
 pub use switch::Switch;
 pub use thruster::Thruster;
@@ -77,6 +80,14 @@ pub trait Effect: Debug + Send + Sync {
     fn is_constant(&self) -> bool {
         false
     }
+
+    /// Whether the load is a power series of time where the motion is one; a constant load is without being asked.
+    fn has_series(&self) -> bool {
+        false
+    }
+
+    /// Adds that series for one of its bodies, from the moment `at` on.
+    fn add_series(&self, _at: Moment, _body: &mut SeriesBody, _load: &mut SeriesLoad, _tape: &mut Tape) {}
 
     /// Vectors at whose zeros the load has a kink, such as the speed of quadratic drag. Runs to a tolerance
     /// end a step where one turns round.

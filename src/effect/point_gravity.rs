@@ -1,7 +1,9 @@
 //! Attraction by a point.
 
+use super::series::{Place, SeriesBody, SeriesLoad, add};
 use super::{BodyMotion, Effect, Load, Moment, Target, finite, not_negative};
 use crate::error::Result;
+use crate::math::series::Tape;
 use crate::math::{Matrix3, Vector3};
 
 /// Attraction by a point, with the torque of its gradient on an extended body.
@@ -79,6 +81,45 @@ impl Effect for PointGravity {
 
     fn depends_on_velocity(&self) -> bool {
         false
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn add_series(&self, _at: Moment, body: &mut SeriesBody, load: &mut SeriesLoad, tape: &mut Tape) {
+        let center = Vector3::from(self.center);
+        if let (Place::Moving(position, _), false) = (body.place, self.gradient_torque) {
+            let center = tape.constant(center);
+            let r = tape.sum(position, -1.0, center);
+            let rho2 = tape.dot(r, r);
+            let k = tape.power(rho2, -1.5);
+            let force = tape.product(k, r);
+            let force = tape.scaled(-self.mu * body.mass, force);
+            return add(tape, &mut load.force, force);
+        }
+
+        // in own axes the inertia stays: J r = I r
+        let r = body.offset_own(tape, &center);
+        let rho2 = tape.dot(r, r);
+        let k = tape.power(rho2, -1.5);
+        let force = tape.product(k, r);
+        let force = tape.scaled(-self.mu * body.mass, force);
+        add(tape, &mut load.force_own, force);
+        if self.gradient_torque {
+            let jr = tape.linear(r, body.inertia);
+            let s = tape.dot(r, jr);
+            let [k5, k7] = [-2.5, -3.5].map(|power| tape.power(rho2, power));
+            let [squeeze, pull] = [tape.product(k7, s), tape.product(k5, jr)];
+            let squeeze = tape.sum(squeeze, -0.2 * body.inertia.trace(), k5);
+            let squeeze = tape.product(squeeze, r);
+            let squeeze = tape.scaled(7.5 * self.mu, squeeze);
+            let force = tape.sum(squeeze, -3.0 * self.mu, pull);
+            add(tape, &mut load.force_own, force);
+            let torque = tape.cross(r, pull);
+            let torque = tape.scaled(3.0 * self.mu, torque);
+            add(tape, &mut load.torque_own, torque);
+        }
     }
 
     fn add_to_one(&self, _at: Moment, body: &BodyMotion, load: &mut Load) {

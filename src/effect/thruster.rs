@@ -1,8 +1,10 @@
 //! An engine fixed to a body.
 
+use super::series::{SeriesBody, SeriesLoad, add};
 use super::{BodyMotion, Effect, Load, Moment, Schedule, Switch, Target, finite, power_of};
 use crate::error::Result;
 use crate::math::Vector3;
+use crate::math::series::Tape;
 
 /// An engine: a force fixed in the body at a point fixed in the body (lecture (33)–(37)).
 ///
@@ -81,6 +83,21 @@ impl Effect for Thruster {
 
     fn depends_on_velocity(&self) -> bool {
         false
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn add_series(&self, at: Moment, body: &mut SeriesBody, load: &mut SeriesLoad, tape: &mut Tape) {
+        let factor = Schedule::factor_or_one(self.schedule.as_ref(), at.since);
+        if factor != 0.0 {
+            let force_body = factor * Vector3::from(self.force_body);
+            let force = tape.constant(body.own(&force_body));
+            add(tape, &mut load.force_own, force);
+            let torque = tape.constant(body.own(&Vector3::from(self.point_body).cross(&force_body)));
+            add(tape, &mut load.torque_own, torque);
+        }
     }
 
     fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {

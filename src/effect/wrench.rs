@@ -1,8 +1,10 @@
 //! A given force and torque.
 
+use super::series::{SeriesBody, SeriesLoad, add};
 use super::{BodyMotion, Effect, Load, Moment, Schedule, Target, finite, power_of};
 use crate::error::{Error, Result};
 use crate::math::Vector3;
+use crate::math::series::Tape;
 
 /// The axes in which a wrench is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -149,6 +151,44 @@ impl Effect for Wrench {
     fn is_constant(&self) -> bool {
         let Self { frame, point, schedule, angular_frequency, .. } = self;
         *frame == Frame::World && point.is_none() && schedule.is_none() && angular_frequency.is_none()
+    }
+
+    fn has_series(&self) -> bool {
+        true
+    }
+
+    fn add_series(&self, at: Moment, body: &mut SeriesBody, load: &mut SeriesLoad, tape: &mut Tape) {
+        let factor = Schedule::factor_or_one(self.schedule.as_ref(), at.since);
+        if factor == 0.0 {
+            return;
+        }
+        let wave = self.angular_frequency.map(|w| tape.wave(w, self.phase));
+        let swinging = |tape: &mut Tape, v: Vector3| {
+            let v = tape.constant(factor * v);
+            wave.filter(|_| tape.value(v) != Some(Vector3::zeros())).map_or(v, |wave| tape.product(wave, v))
+        };
+        let (force, torque) = (Vector3::from(self.force), Vector3::from(self.torque));
+        let point = self.point.map(Vector3::from);
+        match self.frame {
+            Frame::World => {
+                let [force, torque] = [force, torque].map(|v| swinging(tape, v));
+                add(tape, &mut load.force, force);
+                add(tape, &mut load.torque, torque);
+                if let Some(point) = point {
+                    // (p − x) × F
+                    let offset = body.offset_own(tape, &point);
+                    let force = body.own_of(tape, force);
+                    let torque = tape.cross(force, offset);
+                    add(tape, &mut load.torque_own, torque);
+                }
+            }
+            Frame::Body => {
+                let torque = torque + point.map_or_else(Vector3::zeros, |point| point.cross(&force));
+                let [force, torque] = [force, torque].map(|v| swinging(tape, body.own(&v)));
+                add(tape, &mut load.force_own, force);
+                add(tape, &mut load.torque_own, torque);
+            }
+        }
     }
 
     fn add_to_one(&self, at: Moment, body: &BodyMotion, load: &mut Load) {

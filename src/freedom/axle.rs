@@ -1,8 +1,10 @@
 //! A body that turns about an axis at rest: a wheel, a pendulum.
 
 use super::{Scales, direction};
+use crate::effect::series::{Place, SeriesBody, SeriesLoad};
 use crate::error::{Error, Result};
-use crate::math::{Quaternion, Vector3, quaternion};
+use crate::math::series::{Attitude, Tape};
+use crate::math::{Matrix3, Quaternion, Vector3, quaternion};
 use crate::state::{BodyMotion, BodyState, Load};
 use crate::tolerance::VELOCITY_FITS_FREEDOM;
 
@@ -77,6 +79,33 @@ impl Axle {
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         dy[0] = self.inv_moment * y[1];
         dy[1] = 0.0;
+    }
+
+    pub(super) fn begin_series(&self, at: usize, motion: &BodyMotion, tape: &mut Tape) -> SeriesBody {
+        let (angle, spin) = (tape.number(at), tape.number(at + 1));
+        let rate = tape.scaled(self.inv_moment, spin);
+        tape.integrate(angle, rate);
+        let rotation = quaternion::to_matrix(&self.start_orientation);
+        let angular_velocity = tape.along(&rotation.tr_mul(&self.axis), rate);
+        SeriesBody {
+            mass: motion.mass,
+            inertia: motion.inertia_body,
+            axes: Matrix3::identity(),
+            attitude: Attitude::Angle(at, self.axis, rotation),
+            angular_velocity,
+            spin,
+            momentum: None,
+            place: Place::Arm(self.point, self.arm_body),
+            seen: None,
+        }
+    }
+
+    pub(super) fn end_series(&self, body: &mut SeriesBody, load: SeriesLoad, tape: &mut Tape) {
+        if let Some(torque) = body.torque_about_pivot(load, tape) {
+            let axis = tape.constant(quaternion::to_matrix(&self.start_orientation).tr_mul(&self.axis));
+            let torque = tape.dot(axis, torque);
+            tape.integrate(body.spin, torque);
+        }
     }
 
     #[inline]

@@ -2,7 +2,9 @@
 
 use super::Scales;
 use super::spin::{Form, RotationSplit, Spin, put, vector};
+use crate::effect::series::{Place, SeriesBody, SeriesLoad};
 use crate::math::Vector3;
+use crate::math::series::Tape;
 use crate::math::sum::two_sum;
 use crate::state::{BodyMotion, BodyState, Load};
 
@@ -24,9 +26,9 @@ impl Free {
         &self.spin
     }
 
-    /// The inverses of its mass [1/kg] and of its principal moments [1/(kg·m²)].
-    pub(crate) fn inverses(&self) -> (f64, &Vector3) {
-        (self.inv_mass, self.spin.inv_moments())
+    /// The inverses of its mass [1/kg] and of its principal moments [1/(kg·m²)], and their [gaps](Spin::gaps).
+    pub(crate) fn inverses(&self) -> (f64, &Vector3, &Vector3) {
+        (self.inv_mass, self.spin.inv_moments(), self.spin.gaps())
     }
 
     #[inline]
@@ -75,6 +77,34 @@ impl Free {
         put(dy, &(self.inv_mass * vector(&y[3..])));
         dy[3..6].fill(0.0);
         self.spin.rate_unloaded(&y[6..], &mut dy[6..]);
+    }
+
+    pub(super) fn begin_series(&self, at: usize, motion: &BodyMotion, tape: &mut Tape) -> SeriesBody {
+        let position = tape.numbers(at, 3);
+        let momentum = tape.numbers(at + 3, 3);
+        let velocity = tape.scaled(self.inv_mass, momentum);
+        tape.integrate(position, velocity);
+        let (attitude, spin, angular_velocity, axes) = self.spin.begin_series(at + 6, tape);
+        SeriesBody {
+            mass: motion.mass,
+            inertia: axes.transpose() * motion.inertia_body * axes,
+            axes,
+            attitude,
+            angular_velocity,
+            spin,
+            momentum: Some(momentum),
+            place: Place::Moving(position, velocity),
+            seen: None,
+        }
+    }
+
+    pub(super) fn end_series(&self, body: &mut SeriesBody, load: SeriesLoad, tape: &mut Tape) {
+        let force = body.sum_world(load.force, load.force_own, tape);
+        if let (Some(momentum), Some(force)) = (body.momentum, force) {
+            tape.integrate(momentum, force);
+        }
+        let torque = body.sum_own(load.torque, load.torque_own, tape);
+        self.spin.end_series(body.spin, torque, tape);
     }
 
     #[inline]

@@ -10,17 +10,24 @@
 //! A constraint removes coordinates instead of adding forces, so it cannot be violated. The forces
 //! it would need are worked out where they are asked for ([`Chart::reaction`]).
 
+use crate::effect::series::{SeriesBody, SeriesLoad};
 use crate::error::{Error, Result};
+use crate::math::series::Tape;
 use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Vector3};
 use crate::state::{BodyMotion, BodyState, Load};
 
 mod axle;
 mod free;
+mod moser_veselov;
 mod pivot;
 mod planar;
+pub mod prescribed;
+pub(crate) mod riding;
 pub(crate) mod spin;
 
+pub use prescribed::Prescribed;
+pub use riding::Riding;
 pub(crate) use spin::Spin;
 pub use spin::{Form, RotationSplit};
 
@@ -122,9 +129,11 @@ pub enum Chart {
     Axle(axle::Axle),
     /// None: the body rests.
     Fixed,
+    /// None: the body is part of a compound.
+    Riding(Riding),
 }
 
-/// Calls the variant's own method; a fixed body has nothing to integrate.
+/// Calls the variant's own method; a body that rests, or rides, has nothing to integrate.
 macro_rules! dispatch {
     ($chart:expr, $inner:ident => $call:expr, $fixed:expr) => {
         match $chart {
@@ -132,7 +141,7 @@ macro_rules! dispatch {
             Chart::Planar($inner) => $call,
             Chart::Pivot($inner) => $call,
             Chart::Axle($inner) => $call,
-            Chart::Fixed => $fixed,
+            Chart::Fixed | Chart::Riding(_) => $fixed,
         }
     };
 }
@@ -185,7 +194,7 @@ impl Chart {
                 self.decode(y, motion);
                 self.rate(y, motion, load, dy);
             }
-            Self::Fixed => {}
+            Self::Fixed | Self::Riding(_) => {}
         }
     }
 
@@ -212,7 +221,7 @@ impl Chart {
                     (*y, *rest) = two_sum(*y, h * dy + *rest);
                 }
             }
-            Self::Fixed => {}
+            Self::Fixed | Self::Riding(_) => {}
         }
     }
 
@@ -222,12 +231,12 @@ impl Chart {
         match self {
             Self::Free(c) => Some((at + 6..at + self.dimension(), c.spin())),
             Self::Pivot(c) => Some((at..at + self.dimension(), c.spin())),
-            Self::Planar(_) | Self::Axle(_) | Self::Fixed => None,
+            Self::Planar(_) | Self::Axle(_) | Self::Fixed | Self::Riding(_) => None,
         }
     }
 
-    /// Amends a change `dy` of the numbers, of which rounding left `rest`, so that the orientation ends on
-    /// its sphere (or R on the rotations), lecture §4; returns how far it had strayed: `||q| − 1|` or
+    /// Amends a change `dy` of the numbers, of which rounding left `rest`, so that the orientation does not leave
+    /// its sphere (or R the rotations), lecture §4; returns how far it had strayed: `||q| − 1|` or
     /// `‖RᵀR − I‖` [-].
     #[inline(always)]
     pub fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
@@ -245,6 +254,16 @@ impl Chart {
         }
     }
 
+    /// The body on a tape, its numbers from `at` on; none if it rests. Methods of series integrate in body axes.
+    pub(crate) fn begin_series(&self, at: usize, motion: &BodyMotion, tape: &mut Tape) -> Option<SeriesBody> {
+        dispatch!(self, c => Some(c.begin_series(at, motion, tape)), None)
+    }
+
+    /// How its momenta change under a load, on a tape.
+    pub(crate) fn end_series(&self, body: &mut SeriesBody, load: SeriesLoad, tape: &mut Tape) {
+        dispatch!(self, c => c.end_series(body, load, tape), ());
+    }
+
     /// Size of an error `e` of a step from `y0` to `y1` [-]: of the position over a length, of
     /// the orientation in radians, of momenta over their own size.
     #[inline]
@@ -252,10 +271,11 @@ impl Chart {
         dispatch!(self, c => c.error_size(y0, y1, e, scales), 0.0)
     }
 
-    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m].
+    /// Force and torque about the centre of mass with which the constraint holds the body [N], [N·m]; nothing of a
+    /// part, which its compound holds, not its freedom.
     pub fn reaction(&self, motion: &BodyMotion, load: &Load) -> Load {
         match self {
-            Self::Free(_) => Load::zero(),
+            Self::Free(_) | Self::Riding(_) => Load::zero(),
             Self::Planar(c) => c.reaction(motion, load),
             Self::Pivot(c) => c.reaction(motion, load),
             Self::Axle(c) => c.reaction(motion, load),

@@ -2,7 +2,9 @@
 
 use super::Scales;
 use super::spin::{Form, Spin};
+use crate::effect::series::{Place, SeriesBody, SeriesLoad};
 use crate::error::{Error, Result};
+use crate::math::series::Tape;
 use crate::math::{Matrix3, Vector3};
 use crate::state::{BodyMotion, BodyState, Load};
 use crate::tolerance::VELOCITY_FITS_FREEDOM;
@@ -80,6 +82,26 @@ impl Pivot {
     #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         self.spin.rate_unloaded(y, dy);
+    }
+
+    pub(super) fn begin_series(&self, at: usize, motion: &BodyMotion, tape: &mut Tape) -> SeriesBody {
+        let (attitude, spin, angular_velocity, axes) = self.spin.begin_series(at, tape);
+        SeriesBody {
+            mass: motion.mass,
+            inertia: axes.transpose() * motion.inertia_body * axes,
+            axes,
+            attitude,
+            angular_velocity,
+            spin,
+            momentum: None,
+            place: Place::Arm(self.point, axes.tr_mul(&self.arm_body)),
+            seen: None,
+        }
+    }
+
+    pub(super) fn end_series(&self, body: &mut SeriesBody, load: SeriesLoad, tape: &mut Tape) {
+        let torque = body.torque_about_pivot(load, tape);
+        self.spin.end_series(body.spin, torque, tape);
     }
 
     #[inline]

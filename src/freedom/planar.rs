@@ -2,8 +2,10 @@
 
 use super::spin::{put, vector};
 use super::{Scales, direction};
+use crate::effect::series::{Place, SeriesBody, SeriesLoad, add};
 use crate::error::{Error, Result};
-use crate::math::{Quaternion, Vector3, quaternion};
+use crate::math::series::{Attitude, Tape};
+use crate::math::{Matrix3, Quaternion, Vector3, quaternion};
 use crate::state::{BodyMotion, BodyState, Load};
 use crate::tolerance::VELOCITY_FITS_FREEDOM;
 
@@ -88,6 +90,54 @@ impl Planar {
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         put(dy, &Vector3::new(self.inv_mass * y[3], self.inv_mass * y[4], self.inv_moment * y[5]));
         dy[3..6].fill(0.0);
+    }
+
+    pub(super) fn begin_series(&self, at: usize, motion: &BodyMotion, tape: &mut Tape) -> SeriesBody {
+        let (place, angle) = (tape.numbers(at, 2), tape.number(at + 2));
+        let (momentum, spin) = (tape.numbers(at + 3, 2), tape.number(at + 5));
+        let velocity = tape.scaled(self.inv_mass, momentum);
+        tape.integrate(place, velocity);
+        let rate = tape.scaled(self.inv_moment, spin);
+        tape.integrate(angle, rate);
+
+        // the same in space
+        let plane = Matrix3::from_columns(&[self.e1, self.e2, Vector3::zeros()]);
+        let [place, velocity] = [place, velocity].map(|v| tape.linear(v, plane));
+        let start = tape.constant(self.start);
+        let position = tape.sum(place, 1.0, start);
+        let rotation = quaternion::to_matrix(&self.start_orientation);
+        let angular_velocity = tape.along(&rotation.tr_mul(&self.normal), rate);
+        SeriesBody {
+            mass: motion.mass,
+            inertia: motion.inertia_body,
+            axes: Matrix3::identity(),
+            attitude: Attitude::Angle(at + 2, self.normal, rotation),
+            angular_velocity,
+            spin,
+            momentum: Some(momentum),
+            place: Place::Moving(position, velocity),
+            seen: None,
+        }
+    }
+
+    pub(super) fn end_series(&self, body: &mut SeriesBody, load: SeriesLoad, tape: &mut Tape) {
+        let force = body.sum_world(load.force, load.force_own, tape);
+        if let (Some(momentum), Some(force)) = (body.momentum, force) {
+            let plane = Matrix3::from_columns(&[self.e1, self.e2, Vector3::zeros()]).transpose();
+            let force = tape.linear(force, plane);
+            tape.integrate(momentum, force);
+        }
+        let normal = tape.constant(self.normal);
+        let normal_own = tape.constant(quaternion::to_matrix(&self.start_orientation).tr_mul(&self.normal));
+        let parts = [(load.torque, normal), (load.torque_own, normal_own)];
+        let mut torque = None;
+        for (part, normal) in parts.into_iter().filter_map(|(part, normal)| Some((part?, normal))) {
+            let along = tape.dot(normal, part);
+            add(tape, &mut torque, along);
+        }
+        if let Some(torque) = torque {
+            tape.integrate(body.spin, torque);
+        }
     }
 
     #[inline]

@@ -1,7 +1,8 @@
 //! Orientation and angular momentum, in each of the forms the library compares.
 
-use super::Scales;
+use super::{Scales, moser_veselov};
 use crate::mass::MassProperties;
+use crate::math::series::{Attitude, Node, Tape};
 use crate::math::sum::two_sum;
 use crate::math::{Matrix3, Quaternion, Vector3, quaternion, rotation};
 use crate::state::Load;
@@ -28,6 +29,8 @@ pub enum RotationSplit {
     Symmetric,
     /// Rotations about the three principal axes.
     Axes,
+    /// One rotation, right to this order.
+    MoserVeselov(u32),
 }
 
 /// Rotation about a point: orientation, then angular momentum about that point.
@@ -39,6 +42,8 @@ pub(crate) struct Spin {
     inv_inertia: Matrix3,
     /// Inverses of the principal moments about the point [1/(kg·m²)].
     inv_moments: Vector3,
+    /// `1/I_k − 1/I_j` of the axes i, j, k in their cycle [1/(kg·m²)].
+    gaps: Vector3,
     /// From principal to body axes, where they differ.
     axes: Option<(Quaternion, Matrix3)>,
 }
@@ -53,6 +58,14 @@ pub(super) fn vector(y: &[f64]) -> Vector3 {
 #[inline]
 pub(super) fn put(y: &mut [f64], v: &Vector3) {
     y[..3].copy_from_slice(v.as_slice());
+}
+
+/// Adds a vector to three numbers.
+#[inline]
+fn add(y: &mut [f64], v: &Vector3) {
+    for (y, v) in y.iter_mut().zip(v.iter()) {
+        *y += v;
+    }
 }
 
 #[inline]
@@ -83,13 +96,16 @@ impl Spin {
     pub(super) fn new(form: Form, inertia: Matrix3) -> Self {
         let off_diagonal = [inertia[(0, 1)], inertia[(0, 2)], inertia[(1, 2)]];
         let inv_inertia = super::inverse(&inertia);
-        if off_diagonal == [0.0; 3] {
-            let inv_moments = inertia.diagonal().map(|moment| 1.0 / moment);
-            return Self { form, inv_inertia, inv_moments, axes: None };
-        }
-        let principal = MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia }.principal();
-        let axes = Some((quaternion::from_matrix(&principal.axes), principal.axes));
-        Self { form, inv_inertia, inv_moments: principal.moments.map(|moment| 1.0 / moment), axes }
+        let (moments, axes) = if off_diagonal == [0.0; 3] {
+            (inertia.diagonal(), None)
+        } else {
+            let principal = MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia }.principal();
+            (principal.moments, Some((quaternion::from_matrix(&principal.axes), principal.axes)))
+        };
+        let inv_moments = moments.map(|moment| 1.0 / moment);
+        // no difference of inverses: nothing cancels where moments are close
+        let gap = |j: usize, k: usize| (moments[j] - moments[k]) * inv_moments[j] * inv_moments[k];
+        Self { form, inv_inertia, inv_moments, gaps: Vector3::new(gap(1, 2), gap(2, 0), gap(0, 1)), axes }
     }
 
     /// How orientation and angular momentum are written.
@@ -164,6 +180,11 @@ impl Spin {
         &self.inv_moments
     }
 
+    /// `1/I_k − 1/I_j` of the principal axes i, j, k in their cycle [1/(kg·m²)].
+    pub(super) fn gaps(&self) -> &Vector3 {
+        &self.gaps
+    }
+
     /// `I⁻¹ v`, body axes.
     pub(super) fn over_inertia(&self, v: &Vector3) -> Vector3 {
         self.inv_inertia * v
@@ -194,7 +215,8 @@ impl Spin {
             Form::Body => {
                 let torque_body = r.tr_mul(torque);
                 let torque = self.axes.as_ref().map_or(torque_body, |(_, axes)| axes.tr_mul(&torque_body));
-                self.rate_body(y, &torque, dy);
+                self.rate_body(y, dy);
+                add(&mut dy[4..], &torque);
             }
         }
     }
@@ -208,7 +230,8 @@ impl Spin {
             // the arm in principal axes, where the matrix leads to
             let arm = self.axes.as_ref().map_or(*arm, |(_, axes)| axes.tr_mul(arm));
             let torque = (arm.cross(&scaled.tr_mul(&load.force)) + scaled.tr_mul(&load.torque)) * (1.0 / n);
-            self.rate_body(y, &torque, dy);
+            self.rate_body(y, dy);
+            add(&mut dy[4..], &torque);
         } else {
             let (_, r, w) = self.decode(y);
             self.rate(y, &r, &w, &(load.torque + (r * arm).cross(&load.force)), dy);
@@ -219,29 +242,52 @@ impl Spin {
     #[inline(always)]
     pub(super) fn rate_unloaded(&self, y: &[f64], dy: &mut [f64]) {
         match self.form {
-            Form::Body => self.rate_body(y, &Vector3::zeros(), dy),
+            Form::Body => self.rate_body(y, dy),
             Form::WorldMatrix => {
                 let (_, r, w) = self.decode(y);
                 self.rate(y, &r, &w, &Vector3::zeros(), dy);
             }
             Form::WorldQuaternion => {
-                // ω = R I⁻¹ Rᵀ L with |q|² R in the place of R: the division waits for nothing
+                // ω in body axes, I⁻¹ Rᵀ L with |q|² R in the place of R: the division waits for nothing
                 let q = quaternion_at(y);
                 let (r, n) = quaternion::to_scaled_matrix(&q);
-                let w = self.angular_velocity(&r, &vector(&y[4..])) * (1.0 / (n * n));
-                put_quaternion(dy, &quaternion::rate_world(&w, &q));
+                let momentum = r.tr_mul(&vector(&y[4..]));
+                let w = match self.axes {
+                    None => (self.inv_moments * (1.0 / n)).component_mul(&momentum),
+                    Some(_) => (self.inv_inertia * momentum) * (1.0 / n),
+                };
+                put_quaternion(dy, &quaternion::rate_body(&w, &q));
                 put(&mut dy[4..], &Vector3::zeros());
             }
         }
     }
 
-    /// Euler's equations: torque in principal axes.
+    /// Euler's equations without torque, principal axes: `dL_i/dt = (1/I_k − 1/I_j) L_j L_k`.
     #[inline(always)]
-    fn rate_body(&self, y: &[f64], torque: &Vector3, dy: &mut [f64]) {
-        let momentum = vector(&y[4..]);
-        let w = self.inv_moments.component_mul(&momentum);
+    fn rate_body(&self, y: &[f64], dy: &mut [f64]) {
+        let [a, b, c] = [y[4], y[5], y[6]];
+        let w = self.inv_moments.component_mul(&Vector3::new(a, b, c));
         put_quaternion(dy, &quaternion::rate_body(&w, &quaternion_at(y)));
-        put(&mut dy[4..], &(momentum.cross(&w) + torque));
+        put(&mut dy[4..], &self.gaps.component_mul(&Vector3::new(b * c, c * a, a * b)));
+    }
+
+    /// The rotation on a tape, its numbers from `at` on: attitude, angular momentum and angular velocity in principal
+    /// axes, and the matrix from these to body axes.
+    pub(super) fn begin_series(&self, at: usize, tape: &mut Tape) -> (Attitude, Node, Node, Matrix3) {
+        let momentum = tape.numbers(at + 4, 3);
+        let w = tape.stretched(momentum, self.inv_moments);
+        tape.turning(at, w);
+        let axes = self.axes.as_ref().map_or_else(Matrix3::identity, |(_, axes)| *axes);
+        (Attitude::Quaternion(at), momentum, w, axes)
+    }
+
+    /// Euler's equations on a tape: torque in principal axes.
+    pub(super) fn end_series(&self, momentum: Node, torque: Option<Node>, tape: &mut Tape) {
+        let mut rate = tape.gyration(momentum, self.inv_moments);
+        if let Some(torque) = torque {
+            rate = tape.sum(rate, 1.0, torque);
+        }
+        tape.integrate(momentum, rate);
     }
 
     /// Advances the rotation without torque by `h`, principal axes; `rest` takes up what rounding drops.
@@ -256,6 +302,10 @@ impl Spin {
                 turn.about_axis(2, h * a[2]);
                 turn.about_axis(1, 0.5 * h * a[1]);
                 turn.about_axis(0, 0.5 * h * a[0]);
+            }
+            RotationSplit::MoserVeselov(order) => {
+                let (c, e) = moser_veselov::rotation(&vector(&turn.y[4..]), a, h, order);
+                turn.turn_all(c, &e);
             }
             RotationSplit::Symmetric => {
                 // i and j are the axes with the closest moments, k is the axis of the top
@@ -309,13 +359,15 @@ impl Spin {
         put(a, &sum);
     }
 
-    /// Amends the change `dy` so that it ends on the sphere: one division by the length, or one polar factor;
-    /// returns how far it would have strayed.
+    /// Amends the change `dy` so that the orientation does not leave its sphere: one division by the length, or one
+    /// polar factor; returns how far it had strayed.
     ///
     /// ```text
-    /// q = q₀ + dq,   dq ← dq + c q,   c = 1/|q| − 1 = −e/2 + 3e²/8 − 5e³/16 + 35e⁴/128 − …,   e = |q|² − 1
+    /// q + dq  ←  (1 + c)(q + dq),   c = 1/|q| − 1 = −e/2 + 3e²/8 − 5e³/16 + 35e⁴/128 − …,   e = |q|² − 1
     /// ```
     ///
+    /// The length is that before the step, and the stray of the step itself is for the next to take away. The rates
+    /// are proportional to |q|, so that the rotation is the same, and the length is known before the step has ended.
     /// The small correction joins the change before it is added, so that no digit of it is rounded off.
     #[inline(always)]
     pub(super) fn project(&self, y: &[f64], rest: &[f64], dy: &mut [f64]) -> f64 {
@@ -324,15 +376,14 @@ impl Spin {
             put_matrix(dy, &((rotation::polar_factor(&r) - matrix_at(y)) - matrix_at(rest)));
             return rotation::orthogonality_error(&r);
         }
-        let q: [f64; 4] = std::array::from_fn(|i| y[i] + (dy[i] + rest[i]));
-        let e = (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]) - 1.0;
+        let e = (y[0] * y[0] + y[1] * y[1]) + (y[2] * y[2] + y[3] * y[3]) - 1.0;
         let (c, strayed) = if e.abs() < SMALL_STRAY {
             (small_correction(e), e.abs() * (0.5 - 0.125 * e))
         } else {
             (large_correction(e), ((1.0 + e).sqrt() - 1.0).abs())
         };
-        for (dy, q) in dy[..4].iter_mut().zip(q) {
-            *dy += c * q;
+        for (dy, y) in dy[..4].iter_mut().zip(y) {
+            *dy = (1.0 + c) * *dy + c * y;
         }
         strayed
     }
@@ -397,6 +448,16 @@ impl Turn<'_> {
         self.change(0, c * w - u.dot(v));
         for i in 0..3 {
             self.change(1 + i, by[i]);
+        }
+    }
+
+    /// The same, and L seen from the body turns the other way, `L ← L − 2 (1 + c) v × L + 2 v × (v × L)`.
+    fn turn_all(&mut self, c: f64, v: &Vector3) {
+        self.turn(c, v);
+        let across = v.cross(&vector(&self.y[4..]));
+        let by = 2.0 * (v.cross(&across) - (1.0 + c) * across);
+        for i in 0..3 {
+            self.change(4 + i, by[i]);
         }
     }
 

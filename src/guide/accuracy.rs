@@ -27,6 +27,8 @@
 //! | [`Cf4`](crate::integrator::Method::Cf4) | 4 | 4 | world axes | stays on the rotations without projection |
 //! | [`Buss2`](crate::integrator::Method::Buss2) | 2 | 2 | world axes | what games use |
 //! | [`Radau5`](crate::integrator::Method::Radau5) | 5 | 3 an iteration | body axes | stiff loads: strong drag does not dictate the step; what a plan takes where it would |
+//! | [`Taylor`](crate::integrator::Method::Taylor) | 3 to 40 | 1 series | body axes | loads that are power series: gravity, engines, wrenches, drag in proportion to the speed |
+//! | [`Dmv`](crate::integrator::Method::Dmv) | 2 to 10 | 1 equation | body axes | long runs without torque: keeps `L`'s length and the energy |
 //! | [`Exact`](crate::integrator::Method::Exact) | – | 0 | – | free bodies, uniform gravity, linear drag: what a plan takes where it can |
 //!
 //! Order p: half the step, 2ᵖ times less error. An evaluation is one of `Y′` with all loads; the slope at
@@ -150,8 +152,8 @@
 //! # Projection
 //!
 //! A step leaves `q` off the unit sphere (`R` off the rotations). The right-hand side always uses the
-//! rotation of `q/|q|`, so that the stray length itself does no harm within a step; after the step `q` is
-//! divided by its length, `R` replaced by its polar factor. The largest stray before that is
+//! rotation of `q/|q|`, so that the stray length itself does no harm; the next step divides `q` by its
+//! length, and `R` is replaced by its polar factor at once. The largest stray before that is
 //! [`Counts::orientation_drift`](crate::integrator::Counts::orientation_drift), a free measure of how rough
 //! the steps are. With [`projection`](crate::scene::RunOptions::projection) off, it adds up for all to see.
 //!
@@ -159,7 +161,7 @@
 //!
 //! The motion within a step is one polynomial ([`Segment`](crate::integrator::Segment)), with orientations
 //! normalised where they are read: the cubic through both ends and their slopes (off by h⁴), in `Tsit5` and
-//! `Dop853` their own of order 4 and 7, in the closed form the motion itself. Samples, energies and contacts all
+//! `Dop853` their own of order 4 and 7, in `Taylor` the series of the step, in the closed form the motion itself. Samples, energies and contacts all
 //! read that one, so they agree with each other. It is made only of steps that someone looks into.
 //!
 //! # What costs order
@@ -214,6 +216,9 @@
 //! sees how the differences fall, and trusts no more than that. In closed form nothing but rounding is left:
 //! 4 ε for every radian turned.
 //!
+//! All runs round the moments of inertia and the start alike, and an unstable motion magnifies that: where bodies meet
+//! nothing, the coarser runs start with numbers that are a few ε off, so that their differences show it.
+//!
 //! A second measure costs no run: the energy audit of
 //! [`Trajectory::energy`](crate::trajectory::Trajectory::energy). Kinetic + potential + dissipated − work should stay;
 //! [`Energy::drift`](crate::trajectory::Energy::drift) is how far it went. It knows nothing of errors that keep the
@@ -235,8 +240,9 @@
 //! - `seconds`, apart for the run whose result is kept and for those it was compared with.
 //!
 //! A tolerance below what rounding leaves is refused before the first step: `64 ε` for the positions and for
-//! every radian that the fastest body would turn at its starting rate. The search gives up, with `met = false`, where the next run would need more
-//! than 2e7 steps, and after 24 rounds of three.
+//! every radian that the fastest body would turn at its starting rate. The search gives up, with `met = false`, where
+//! the next run would need more than 2e7 steps, and after 24 rounds of three; of the rounds so far, the one with the
+//! farthest horizon is the result.
 //!
 //! # Comparing
 //!

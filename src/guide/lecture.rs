@@ -460,8 +460,8 @@
 //!
 //! In a run all bodies that touch at an instant are answered at once. Bounces that come ever faster end when
 //! their geometric series does; what has no speed left along the normal then rests, slides, rolls or tips by
-//! the forces of contact. A body that sticks to a fixed one stops there. Where this version cannot follow a
-//! contact, the run ends in
+//! the forces of contact. A body that sticks to a fixed one stops there; two that stick to each other go on as
+//! one, in closed form where gravity alone acts. Where this version cannot follow a contact, the run ends in
 //! [`LastingContact`](crate::simulation::Failure::LastingContact) with all that was computed.
 //!
 //! | | in code |
@@ -469,7 +469,7 @@
 //! | bounce | [`contact::bounce::bounce`](crate::contact::bounce::bounce), of several bodies [`contact::collision::collide`](crate::contact::collision::collide) |
 //! | rest, sliding | [`contact::rest::rest`](crate::contact::rest::rest) |
 //! | accumulation | [`contact::accumulation`](crate::contact::accumulation) |
-//! | stick | [`contact::stick::stick`](crate::contact::stick::stick) |
+//! | stick | [`contact::stick::stick`](crate::contact::stick::stick), of two that move [`contact::stick::merge`](crate::contact::stick::merge) |
 //! | sum of tensors | [`MassProperties::combined`](crate::mass::MassProperties::combined) |
 //! | restitution of a pair | [`Material::of_pair`](crate::contact::Material::of_pair) |
 //! | what happened | [`Event`](crate::trajectory::Event) |

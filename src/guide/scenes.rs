@@ -71,6 +71,7 @@
 //! | `restitution` | – | 0 | coefficient of restitution, 0 to 1; a pair has the larger of both |
 //! | `response` | | `"bounce"` | `"bounce"` or `"stick"`; a pair sticks if either body says so |
 //! | `fixed` | | `false` | whether the body stays where it is |
+//! | `motion` | | absent | the motion that the body is moved along; see [Prescribed motion](#prescribed-motion) |
 //! | `freedom` | | `"free"` | how it may move; see [Freedom](#freedom) |
 //! | `collides` | | `true` | whether its shape meets other bodies; if not, it serves for the mass alone |
 //!
@@ -79,9 +80,10 @@
 //!
 //! Every two bodies with shapes, of which one can move, may meet, until one of them says
 //! `collides = false`. Free bodies bounce off each other and off fixed ones, with friction; they rest, slide,
-//! roll and tip on each other. Sticking is answered to fixed bodies only, and bodies of fewer freedoms must
-//! not collide; both are refused by name. So ends a run, with all that was computed, where a curve that is
-//! neither ball nor cylinder rolls.
+//! roll and tip on each other. What sticks to a fixed body stops; two that stick to each other are one body from
+//! there on, which flies, bounces and sticks as one, while each keeps its name in events and samples. Bodies of
+//! fewer freedoms must not collide, which is refused by name. A run ends, with all that was computed, where a curve
+//! that is neither ball nor cylinder rolls, and where a body sticks that an effect joins to others in flight.
 //!
 //! ```toml
 //! [[bodies]]
@@ -205,6 +207,28 @@
 //! shape.cuboid.half_extents = [0.01, 0.01, 0.25]
 //! freedom.axle = { point_body = [0.0, 0.0, 0.25], axis_body = [0.0, 1.0, 0.0] }
 //! collides = false
+//! ```
+//!
+//! # Prescribed motion
+//!
+//! | key of `motion` | unit | default | meaning |
+//! |---|---|---|---|
+//! | `velocity` | m/s | 0 | velocity of the point `center` of the body, world axes |
+//! | `angular_velocity` | rad/s | 0 | angular velocity, world axes |
+//! | `center` | m | the shape's origin | the point that the body turns about, shape axes |
+//! | `schedule` | s, – | always 1 | pairs of time and factor of both velocities: 0 before the first, held after the last |
+//!
+//! Such a body is where its motion says, whatever it meets: a turntable, a conveyor, a lift, a bat. `position` and
+//! `orientation` are those at time 0. It needs a shape and no mass; what it does to others is the `work` in the
+//! energies of the run. Others bounce off it, rest on it, slide and are carried along. No effect and no event
+//! names it, and nothing sticks to it.
+//!
+//! ```toml
+//! [[bodies]]
+//! name = "turntable"
+//! shape.cylinder = { radius = 0.15, half_height = 0.01 }
+//! friction = 0.6
+//! motion = { angular_velocity = [0.0, 0.0, 3.5], schedule = [[0.5, 1.0], [4.0, 0.0]] }   # from 0.5 s to 4 s
 //! ```
 //!
 //! # effects
@@ -356,6 +380,7 @@
 //! | `t_span` | s | the call says it | start and end |
 //! | `tolerance` | – | 1e-6, or none beside a step | error that the result may have: positions over `length_scale`, orientations in rad |
 //! | `method` | | `"auto"` | `"auto"`, or the name of a [`Method`](crate::integrator::Method), such as `"heun"` or `"rk4"` |
+//! | `order` | | of `"taylor"` 8 beside a step, else that which the tolerance calls for; of `"dmv"` 10 | order of the methods `"taylor"` (3 to 40) and `"dmv"` (2, 4, 6, 8, 10) |
 //! | `step` | s | found for the tolerance | length of a step; needs a `method`, excludes a `tolerance` |
 //! | `t_eval` | s | 201 uniform times, the ends among them | times of the samples, rising, within the span |
 //! | `estimate` | | `true` | whether the error of a run with a step is estimated, by a second run |

@@ -10,16 +10,19 @@
 //! ```
 
 use std::fmt::Debug;
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::freedom::{Form, RotationSplit, Scales};
+use crate::math::series::Tape;
 use crate::math::sum::{Time, two_sum};
 use crate::state::{BodyMotion, Moment};
 
 mod axes2;
 mod buss2;
 mod cf4;
+pub(crate) mod dmv;
 mod dop853;
 mod euler;
 pub(crate) mod exact;
@@ -36,6 +39,7 @@ mod split6;
 mod split8;
 mod splitting;
 mod stepper;
+pub(crate) mod taylor;
 mod tsit5;
 
 pub use exact::{ClosedFlight, ClosedMotion};
@@ -56,19 +60,35 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     /// Takes back what was lent.
     fn take_back(&mut self, lent: Self);
 
+    /// The numbers that change; the rate of the others is 0, and stands so in every vector of rates.
+    #[inline(always)]
+    fn moving(&self) -> [Range<usize>; 2] {
+        [0..self.as_ref().len(), 0..0]
+    }
+
+    /// Takes over from `y` the numbers that do not change.
+    #[inline(always)]
+    fn set_steady(&mut self, _y: &Self) {}
+
     /// `self += a · k`
     #[inline]
     fn add_scaled(&mut self, a: f64, k: &Self) {
-        for (y, k) in self.as_mut().iter_mut().zip(k.as_ref()) {
-            *y += a * k;
+        for moving in self.moving() {
+            for (y, k) in self.as_mut()[moving.clone()].iter_mut().zip(&k.as_ref()[moving]) {
+                *y += a * k;
+            }
         }
     }
 
     /// `self = y + a · k`
     #[inline(always)]
     fn set_sum(&mut self, y: &Self, a: f64, k: &Self) {
-        for ((s, y), k) in self.as_mut().iter_mut().zip(y.as_ref()).zip(k.as_ref()) {
-            *s = y + a * k;
+        self.set_steady(y);
+        for moving in self.moving() {
+            let terms = y.as_ref()[moving.clone()].iter().zip(&k.as_ref()[moving.clone()]);
+            for (s, (y, k)) in self.as_mut()[moving].iter_mut().zip(terms) {
+                *s = y + a * k;
+            }
         }
     }
 
@@ -76,12 +96,15 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     #[inline(always)]
     fn set_combination<const N: usize>(&mut self, y: &Self, h: f64, terms: [(f64, &Self); N]) {
         let terms = terms.map(|(a, k)| (a, k.as_ref()));
-        for (i, (s, y)) in self.as_mut().iter_mut().zip(y.as_ref()).enumerate() {
-            let mut sum = terms[0].0 * terms[0].1[i];
-            for (a, k) in &terms[1..] {
-                sum += a * k[i];
+        self.set_steady(y);
+        for moving in self.moving() {
+            for i in moving {
+                let mut sum = terms[0].0 * terms[0].1[i];
+                for (a, k) in &terms[1..] {
+                    sum += a * k[i];
+                }
+                self.as_mut()[i] = y.as_ref()[i] + h * sum;
             }
-            *s = y + h * sum;
         }
     }
 
@@ -89,12 +112,14 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     #[inline(always)]
     fn set_increment<const N: usize>(&mut self, h: f64, terms: [(f64, &Self); N]) {
         let terms = terms.map(|(a, k)| (a, k.as_ref()));
-        for (i, s) in self.as_mut().iter_mut().enumerate() {
-            let mut sum = terms[0].0 * terms[0].1[i];
-            for (a, k) in &terms[1..] {
-                sum += a * k[i];
+        for moving in self.moving() {
+            for i in moving {
+                let mut sum = terms[0].0 * terms[0].1[i];
+                for (a, k) in &terms[1..] {
+                    sum += a * k[i];
+                }
+                self.as_mut()[i] = h * sum;
             }
-            *s = h * sum;
         }
     }
 
@@ -107,8 +132,11 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
     #[inline(always)]
     fn add_compensated(&mut self, dy: &Self, rest: &mut Self) {
-        for ((y, dy), rest) in self.as_mut().iter_mut().zip(dy.as_ref()).zip(rest.as_mut()) {
-            (*y, *rest) = two_sum(*y, dy + *rest);
+        for moving in self.moving() {
+            let changes = dy.as_ref()[moving.clone()].iter().zip(&mut rest.as_mut()[moving.clone()]);
+            for (y, (dy, rest)) in self.as_mut()[moving].iter_mut().zip(changes) {
+                (*y, *rest) = two_sum(*y, dy + *rest);
+            }
         }
     }
 }
@@ -188,8 +216,8 @@ pub trait Problem: Debug + Send {
     /// `a += c (a × b)` on the angular velocities in two generators.
     fn add_bracket(&self, c: f64, a: &mut Self::Y, b: &Self::Y);
 
-    /// Amends a change `dy` of `y`, of which rounding left `rest`, so that it ends with orientations on
-    /// their sphere (lecture §4); returns how far the worst had strayed [-].
+    /// Amends a change `dy` of `y`, of which rounding left `rest`, so that orientations do not leave
+    /// their sphere (lecture §4): what the steps before have strayed is taken away; returns how far that was [-].
     fn project(&mut self, y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64;
 
     /// How far the worst orientation is off its sphere, as it stands [-].
@@ -204,6 +232,9 @@ pub trait Problem: Debug + Send {
 
     /// Leaves out the effects at these places of the scene, and no others; whether that is a change.
     fn leave_out(&mut self, effects: &[usize]) -> bool;
+
+    /// The recurrences of the motion's series to this order, as loads are from the moment on.
+    fn tape(&self, at: Moment, order: usize) -> Tape;
 
     /// What a user's function complained about, once.
     fn take_failure(&mut self) -> Option<String>;
@@ -312,35 +343,45 @@ macro_rules! methods {
         #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         pub enum Method {
             $($(#[$doc])* $variant,)*
+            /// The power series of the motion, of any order, with error control; loads that are series too.
+            Taylor,
+            /// The preprocessed discrete Moser–Veselov method, order 4 to 10: keeps |L| and energy where no torque acts.
+            Dmv,
             /// The closed form, where there is one: no torque and no force but gravity and linear drag.
             Exact,
         }
 
         impl Method {
             /// Every method, in the order of the list.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Exact];
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)* Self::Taylor, Self::Dmv, Self::Exact];
 
             /// The name that files, reports and Python use.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$variant => stringify!($module),)*
+                    Self::Taylor => "taylor",
+                    Self::Dmv => "dmv",
                     Self::Exact => "exact",
                 }
             }
 
             /// Order of accuracy: halving the step divides the error by two to this power; 0 for the
-            /// closed form, which has no step.
+            /// closed form, which has no step, and for power series and `Dmv` that where none is asked for.
             pub fn order(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::ORDER,)*
+                    Self::Taylor => taylor::ORDER,
+                    Self::Dmv => dmv::ORDER,
                     Self::Exact => exact::ORDER,
                 }
             }
 
-            /// Evaluations of f in one step; of the implicit method in one iteration.
+            /// Evaluations of f in one step; of the implicit method in one iteration; a power series is one.
             pub fn evaluations(self) -> u32 {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS,)*
+                    Self::Taylor => taylor::EVALUATIONS,
+                    Self::Dmv => dmv::EVALUATIONS,
                     Self::Exact => 0,
                 }
             }
@@ -354,6 +395,8 @@ macro_rules! methods {
             pub fn in_body_axes(self) -> bool {
                 match self {
                     $(Self::$variant => $module::BODY_AXES,)*
+                    Self::Taylor => taylor::BODY_AXES,
+                    Self::Dmv => dmv::BODY_AXES,
                     Self::Exact => false,
                 }
             }
@@ -363,7 +406,7 @@ macro_rules! methods {
             pub fn has_short_steps(self) -> bool {
                 match self {
                     $(Self::$variant => $module::EVALUATIONS <= 4 && $module::ERROR_ORDER == 0.0,)*
-                    Self::Exact => false,
+                    Self::Taylor | Self::Dmv | Self::Exact => false,
                 }
             }
 
@@ -372,12 +415,13 @@ macro_rules! methods {
             pub fn controls_error(self) -> bool {
                 match self {
                     $(Self::$variant => $module::ERROR_ORDER > 0.0,)*
-                    Self::Exact => true,
+                    Self::Dmv => false,
+                    Self::Taylor | Self::Exact => true,
                 }
             }
 
-            /// The method on a problem; none for the closed form, and none for methods that the problem is
-            /// not written for.
+            /// The method on a problem; none for the closed form and for power series, which are made apart, and
+            /// none for methods that the problem is not written for.
             pub fn integrator<P: Problem + 'static>(
                 self,
                 problem: &P,
@@ -430,7 +474,38 @@ methods! {
     Radau5 => radau5,
 }
 
+/// The methods whose order can be asked for, on a problem: their work does not grow less where its kind is known.
+pub(crate) fn of_order<P: Problem + 'static>(
+    method: Method,
+    problem: &P,
+    order: u32,
+    control: Control,
+    projection: bool,
+) -> Option<Box<dyn Integrator<P>>> {
+    let n = problem.dimension();
+    match method {
+        Method::Taylor => Some(Box::new(taylor::Taylor::new(order, n, control, projection))),
+        Method::Dmv => {
+            let kernel = dmv::Kernel::of_order(n, order);
+            Some(Box::new(stepper::Stepper::with(kernel, n, control, projection)))
+        }
+        _ => None,
+    }
+}
+
 impl Method {
+    /// The orders that can be asked for, in words, and whether one of them was.
+    pub(crate) fn allows_order(self, order: u32) -> Option<(String, bool)> {
+        match self {
+            Self::Taylor => {
+                let (least, most) = (taylor::ORDERS.start(), taylor::ORDERS.end());
+                Some((format!("from {least} to {most}"), taylor::ORDERS.contains(&order)))
+            }
+            Self::Dmv => Some(("2, 4, 6, 8 or 10".to_owned(), dmv::ORDERS.contains(&order))),
+            _ => None,
+        }
+    }
+
     /// The form in which the method integrates orientation, for the form of orientation asked for.
     pub(crate) fn form(self, matrix: bool) -> Form {
         match (self.in_body_axes(), matrix && self != Self::Exact) {

@@ -8,7 +8,7 @@ use crate::tolerance::STEP_REMAINDER;
 /// A one-step method on its way.
 ///
 /// ```text
-/// Y₁ = Y₀ + ΔY,  then orientations put back on their sphere        both sums compensated
+/// Y₁ = Y₀ + ΔY,  ΔY amended so that orientations stay on their sphere        both sums compensated
 /// ```
 ///
 /// With [`Control::Step`] steps follow each other from the start or the last hard stop, and the one
@@ -36,7 +36,7 @@ pub(super) struct Stepper<P: Problem, K> {
     /// Whether the slope at the front is known, in `end_slope`.
     slope_known: bool,
     increment: P::Y,
-    /// How far the orientations had strayed before they were put back [-].
+    /// How far the orientations had strayed when they were put back [-].
     strayed: f64,
     /// Length that error control proposes for the next step [s]; 0 where it has none yet.
     proposal: f64,
@@ -57,17 +57,29 @@ const REFUSALS: u32 = 64;
 /// Steps that a user's function may break before the run ends [-]: each is tried again at a fifth of its length.
 const FAILURES: u32 = 3;
 /// Steps shorter than this part of the instant's size cannot be told from none [-].
-const SHORTEST: f64 = 4.0 * f64::EPSILON;
+pub(super) const SHORTEST: f64 = 4.0 * f64::EPSILON;
 /// Least error of the last step that the next takes note of [-].
 const LEAST_ERROR: f64 = 1.0e-4;
 
+/// A step of length `step` from an instant, cut or stretched by a hair where it ends on the limit: its length and its
+/// end.
+#[inline(always)]
+pub(super) fn cut(time: Time, step: f64, limit: f64) -> (f64, Time) {
+    let left = time.until(limit);
+    if left <= step * (1.0 + STEP_REMAINDER) { (left, Time::new(limit)) } else { (step, time + step) }
+}
+
 impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
     pub(super) fn new(n: usize, control: Control, projection: bool) -> Self {
+        Self::with(K::new(n), n, control, projection)
+    }
+
+    pub(super) fn with(kernel: K, n: usize, control: Control, projection: bool) -> Self {
         let zeros = || P::Y::zeros(n);
         Self {
             control,
             projection,
-            kernel: K::new(n),
+            kernel,
             at: Moment { time: 0.0, since: 0.0 },
             began: Time::default(),
             h: 0.0,
@@ -156,7 +168,6 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         limit: f64,
         counts: &mut Counts,
     ) -> Result<(), FlightError> {
-        let left = front.time.until(limit);
         let step = match &self.control {
             Control::Step(step) => *step,
             Control::Mesh(mesh) => front.time.until(mesh.end_after(front.time.value)),
@@ -169,10 +180,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             }
         };
 
-        // cut or stretched by a hair so that it ends on the limit
-        let last = left <= step * (1.0 + STEP_REMAINDER);
-        let h = if last { left } else { step };
-        let time = if last { Time::new(limit) } else { front.time + h };
+        let (h, time) = cut(front.time, step, limit);
         self.attempt(problem, front, h);
         self.count(counts);
         self.accept(problem, front, time, counts);
@@ -270,6 +278,8 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
                 return Err(FlightError::NotFinite);
             }
             if front.time.value >= to {
+                // what the last step has strayed is put right by the next
+                counts.orientation_drift = counts.orientation_drift.max(problem.orientation_error(&front.y));
                 return Ok(());
             }
         }

@@ -53,16 +53,21 @@ const SWEEPS: usize = 16;
 
 /// Moments and axes of a symmetric tensor.
 fn diagonalise(tensor: &Matrix3) -> PrincipalAxes {
-    let (mut a, mut axes) = (*tensor, Matrix3::identity());
-    for _ in 0..SWEEPS {
+    let (mut a, mut axes, mut sweeps) = (*tensor, Matrix3::identity(), 0);
+    while sweeps < SWEEPS {
         let turned = [(0, 1), (0, 2), (1, 2)].map(|(p, q)| annihilate(&mut a, &mut axes, p, q));
         if turned == [false; 3] {
             break;
         }
+        sweeps += 1;
     }
 
-    // moments from the tensor itself, ascending; equal ones in the order found
-    let moments = [0, 1, 2].map(|k| rayleigh_quotient(tensor, &axes.column(k).into()));
+    // moments from the tensor itself, ascending; equal ones in the order found. Of axes that were not turned they are
+    // the diagonal, to the last bit
+    let moments = match sweeps {
+        0 => tensor.diagonal().into(),
+        _ => [0, 1, 2].map(|k| rayleigh_quotient(tensor, &axes.column(k).into())),
+    };
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| moments[i].total_cmp(&moments[j]));
 

@@ -9,6 +9,7 @@
 //! | [`elliptic`] | – | elliptic integrals and functions of Jacobi |
 //! | [`pose`] | §1 | where a body frame stands in the world |
 //! | [`roots`] | – | where a smooth function passes through 0 or touches it |
+//! | `series` | – | power series of a motion in time |
 //! | [`sum`] | – | time and sums with their rounding error kept |
 
 pub mod decay;
@@ -18,6 +19,7 @@ pub mod pose;
 pub mod quaternion;
 pub mod roots;
 pub mod rotation;
+pub(crate) mod series;
 pub mod sum;
 
 pub use pose::Pose;

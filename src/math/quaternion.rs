@@ -58,15 +58,15 @@ const SMALL_ANGLE: f64 = 2.0e-3;
 /// `dq/dt = ½ [0, ω] q` with ω in world axes, lecture (27).
 #[inline]
 pub fn rate_world(w: &Vector3, q: &Quaternion) -> Quaternion {
-    let (s, v) = (q.w, q.imag());
-    Quaternion::from_parts(-0.5 * w.dot(&v), 0.5 * (s * w + w.cross(&v)))
+    let (s, v, w) = (q.w, q.imag(), 0.5 * w);
+    Quaternion::from_parts(-w.dot(&v), s * w + w.cross(&v))
 }
 
 /// `dq/dt = ½ q [0, ω]` with ω in body axes, lecture (27).
 #[inline]
 pub fn rate_body(w: &Vector3, q: &Quaternion) -> Quaternion {
-    let (s, v) = (q.w, q.imag());
-    Quaternion::from_parts(-0.5 * w.dot(&v), 0.5 * (s * w - w.cross(&v)))
+    let (s, v, w) = (q.w, q.imag(), 0.5 * w);
+    Quaternion::from_parts(-w.dot(&v), s * w - w.cross(&v))
 }
 
 /// The matrix of the rotation `q/|q|`, lecture §5.

@@ -26,10 +26,13 @@ impl Plan {
     }
 
     fn write(&self, out: &mut String) -> std::fmt::Result {
-        let fixed = self.bodies.iter().filter(|body| body.fixed).count();
+        let moved = self.bodies.iter().filter(|body| body.motion.is_some()).count();
+        let fixed = self.bodies.iter().filter(|body| body.fixed).count() - moved;
         write!(out, "Plan: {}", counted(self.bodies.len(), "body", "bodies"))?;
-        if fixed > 0 {
-            write!(out, " ({fixed} fixed)")?;
+        let kinds = [(fixed, "fixed"), (moved, "moved")].into_iter().filter(|(n, _)| *n > 0);
+        let kinds: Vec<_> = kinds.map(|(n, kind)| format!("{n} {kind}")).collect();
+        if !kinds.is_empty() {
+            write!(out, " ({})", kinds.join(", "))?;
         }
         write!(out, ", {}", self.options.method.map_or("auto", crate::integrator::Method::name))?;
         match (self.options.step, self.tolerance()) {
@@ -40,6 +43,16 @@ impl Plan {
 
         for (number, group) in self.groups.iter().enumerate() {
             self.write_group(out, number, group)?;
+        }
+        let moved = self.bodies.iter().filter_map(|body| Some((body, body.motion.as_ref()?)));
+        for (i, (body, motion)) in moved.enumerate() {
+            let numbers = |v: [f64; 3]| v.map(short).join(", ");
+            let (v, w) = (numbers(motion.velocity), numbers(motion.angular_velocity));
+            write!(out, "  {:<10} {}: velocity ({v}) m/s, angular velocity ({w}) rad/s", label(i, "moved"), body.name)?;
+            let schedule = motion.schedule.as_ref().map_or(&[][..], |schedule| &schedule.0);
+            let factors: Vec<_> =
+                schedule.iter().map(|(t, f)| format!("{} from t = {} s", short(*f), short(*t))).collect();
+            writeln!(out, "{}{}", if factors.is_empty() { "" } else { ", times " }, factors.join(", "))?;
         }
         let pairs = self.pairs_in_words();
         for (i, pair) in pairs.iter().enumerate() {

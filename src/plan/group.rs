@@ -1,10 +1,13 @@
 //! The equations of motion of a flight group: Y′ = f(t, Y), lecture (24).
 
-use super::Binding;
+use super::{Binding, series};
+use crate::freedom::riding::{follow, gather};
 use crate::freedom::{Chart, Form, RotationSplit, Scales};
-use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector};
+use crate::integrator::{Control, Flight, Integration, Method, Problem, StateVector, of_order};
+use crate::math::series::Tape;
 use crate::state::{BodyMotion, Load, Moment};
 use std::fmt::Debug;
+use std::ops::Range;
 
 /// What is known of a group's coordinates where its step is compiled.
 ///
@@ -36,8 +39,7 @@ pub trait Kind: Debug + Send + 'static {
         }
     }
 
-    /// Amends a change so that it ends with orientations on their sphere; returns how far the worst had
-    /// strayed [-].
+    /// Amends a change so that orientations do not leave their sphere; returns how far the worst had strayed [-].
     #[inline(always)]
     fn project(charts: &[Chart], y: &Self::Y, rest: &Self::Y, dy: &mut Self::Y) -> f64 {
         let (y, rest, dy) = (y.as_ref(), rest.as_ref(), dy.as_mut());
@@ -64,17 +66,63 @@ impl Kind for Any {
     }
 }
 
+/// The numbers of a free body on which nothing acts, x, P, q, L. P stays, and so does L in world axes:
+/// nothing is spent on them.
+#[derive(Debug, Clone)]
+pub(crate) struct Unloaded<const WORLD_AXES: bool>([f64; 13]);
+
+impl<const WORLD_AXES: bool> AsRef<[f64]> for Unloaded<WORLD_AXES> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl<const WORLD_AXES: bool> AsMut<[f64]> for Unloaded<WORLD_AXES> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [f64] {
+        &mut self.0
+    }
+}
+
+impl<const WORLD_AXES: bool> StateVector for Unloaded<WORLD_AXES> {
+    fn zeros(n: usize) -> Self {
+        Self(StateVector::zeros(n))
+    }
+
+    #[inline(always)]
+    fn moving(&self) -> [Range<usize>; 2] {
+        if WORLD_AXES { [0..3, 6..10] } else { [0..3, 6..13] }
+    }
+
+    #[inline(always)]
+    fn set_steady(&mut self, y: &Self) {
+        self.0[3..6].copy_from_slice(&y.0[3..6]);
+        if WORLD_AXES {
+            self.0[10..].copy_from_slice(&y.0[10..]);
+        }
+    }
+
+    #[inline(always)]
+    fn lend(&mut self) -> Self {
+        Self([0.0; 13])
+    }
+
+    #[inline(always)]
+    fn take_back(&mut self, _lent: Self) {}
+}
+
 /// Declares the kinds of single bodies: how many numbers they have, whether world axes, body
 /// axes and the absence of loads are meant, and what their only chart is.
 macro_rules! single {
-    ($($(#[$doc:meta])* $kind:ident: [$n:literal, $world:literal, $body:literal, $unloaded:literal] $pattern:pat $(if $known:expr)?,)*) => {
+    ($($(#[$doc:meta])* $kind:ident: [$y:ty, $world:literal, $body:literal, $unloaded:literal] $pattern:pat $(if $known:expr)?,)*) => {
         $(
             $(#[$doc])*
             #[derive(Debug)]
             pub(crate) struct $kind;
 
             impl Kind for $kind {
-                type Y = [f64; $n];
+                type Y = $y;
                 const WORLD_AXES: bool = $world;
                 const BODY_AXES: bool = $body;
                 const UNLOADED: bool = $unloaded;
@@ -92,6 +140,9 @@ macro_rules! single {
         /// The flight by a method of bodies that start at `t` [s] with the numbers `y`; each kind of group has
         /// a step of its own.
         pub(super) fn flight(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+            if matches!(method, Method::Taylor | Method::Dmv) {
+                return fly_to_order(bodies, method, course, t, y);
+            }
             match bodies.charts.as_slice() {
                 $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
                 _ => fly::<Any>(bodies, method, course, t, y),
@@ -102,17 +153,17 @@ macro_rules! single {
 
 single! {
     /// A free body on which nothing acts, with q and L in body axes, in short steps.
-    UnloadedBodyAxes: [13, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
+    UnloadedBodyAxes: [Unloaded<false>, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
     /// A free body on which nothing acts, with q and L in world axes, in short steps.
-    UnloadedWorldAxes: [13, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    UnloadedWorldAxes: [Unloaded<true>, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A free body with q and L in body axes.
-    FreeBodyAxes: [13, false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
+    FreeBodyAxes: [[f64; 13], false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
     /// A free body with q and L in world axes.
-    FreeWorldAxes: [13, true, false, false] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    FreeWorldAxes: [[f64; 13], true, false, false] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A top with q and L in body axes.
-    PivotBodyAxes: [7, false, true, false] Chart::Pivot(c) if c.spin().form() == Form::Body,
+    PivotBodyAxes: [[f64; 7], false, true, false] Chart::Pivot(c) if c.spin().form() == Form::Body,
     /// A body in a plane.
-    InPlane: [6, true, true, false] Chart::Planar(_),
+    InPlane: [[f64; 6], true, true, false] Chart::Planar(_),
 }
 
 /// Bodies of a group: their coordinates, their motions at the start, and what acts on them.
@@ -126,6 +177,8 @@ pub(super) struct Bodies {
 pub(super) struct Course {
     pub(super) control: Control,
     pub(super) projection: bool,
+    /// Order of methods that take one.
+    pub(super) order: u32,
 }
 
 fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
@@ -133,6 +186,13 @@ fn fly<K: Kind>(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64
     debug_assert_eq!(problem.dimension(), y.len());
     let integrator = method.integrator(&problem, course.control, course.projection);
     Box::new(Integration::new(problem, integrator.expect("a method in the axes of the charts"), t, y))
+}
+
+/// The flight by a method whose order was asked for.
+fn fly_to_order(bodies: Bodies, method: Method, course: Course, t: f64, y: &[f64]) -> Box<dyn Flight> {
+    let problem = Group::<Any>::new(bodies.charts, bodies.motions, bodies.bindings);
+    let integrator = of_order(method, &problem, course.order, course.control, course.projection);
+    Box::new(Integration::new(problem, integrator.expect("a method that takes an order"), t, y))
 }
 
 /// Bodies with their coordinates and what acts on them.
@@ -155,6 +215,8 @@ pub struct Group<K> {
     shown_loads: Vec<Load>,
     is_loaded: bool,
     depends_on_velocity: bool,
+    /// Whether the first of the bodies is a compound of others.
+    has_parts: bool,
     kind: std::marker::PhantomData<fn() -> K>,
 }
 
@@ -163,12 +225,15 @@ impl<K: Kind> Group<K> {
     pub(crate) fn new(charts: Vec<Chart>, motions: Vec<BodyMotion>, bindings: Vec<Binding>) -> Self {
         let n = motions.len();
         let is_loaded = !bindings.is_empty();
+        // a constant load on a part turns its compound with a lever that turns
+        let has_parts = charts.iter().any(|chart| matches!(chart, Chart::Riding(_)));
         let (constant, changing): (Vec<_>, Vec<_>) =
-            bindings.into_iter().partition(|binding| binding.effect.as_effect().is_constant());
+            bindings.into_iter().partition(|binding| !has_parts && binding.effect.as_effect().is_constant());
         let depends_on_velocity = changing.iter().any(|binding| binding.effect.as_effect().depends_on_velocity());
         let mut group = Self {
             is_loaded,
             depends_on_velocity,
+            has_parts,
             charts,
             bindings: constant,
             off: Vec::new(),
@@ -188,11 +253,12 @@ impl<K: Kind> Group<K> {
     /// Reads the motion of every body from the numbers.
     fn decode_into(charts: &[Chart], y: &[f64], motions: &mut [BodyMotion]) {
         let mut at = 0;
-        for (chart, motion) in K::narrow(charts).iter().zip(motions) {
+        for (chart, motion) in K::narrow(charts).iter().zip(&mut *motions) {
             let n = chart.dimension();
             chart.decode(&y[at..at + n], motion);
             at += n;
         }
+        follow(K::narrow(charts), motions);
     }
 
     /// What holds each body in its freedom, the motions being as they were given.
@@ -217,6 +283,9 @@ impl<K: Kind> Group<K> {
         }
         Self::decode_into(&self.charts, y.as_ref(), &mut self.motions);
         self.add_loads(at);
+        if self.has_parts {
+            gather(&self.charts, &self.motions, &mut self.loads);
+        }
         let (y, dy) = (y.as_ref(), dy.as_mut());
         let mut at = 0;
         for ((chart, motion), load) in K::narrow(&self.charts).iter().zip(&self.motions).zip(&self.loads) {
@@ -387,6 +456,10 @@ impl<K: Kind> Problem for Group<K> {
             self.off = effects.to_vec();
         }
         changes
+    }
+
+    fn tape(&self, at: Moment, order: usize) -> Tape {
+        series::tape(&self.charts, &self.motions, (&self.constant, &self.bindings, &self.off), at, order)
     }
 
     fn take_failure(&mut self) -> Option<String> {

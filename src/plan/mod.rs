@@ -8,23 +8,26 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::closest::Collider;
-use crate::contact::{Material, Response};
+use crate::contact::Material;
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
-use crate::freedom::{Chart, Freedom};
-use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method};
+use crate::freedom::{Chart, Freedom, Prescribed};
+use crate::integrator::{ClosedFlight, ClosedMotion, Control, Flight, Limits, Method, taylor};
 use crate::mass::MassProperties;
 use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
 use crate::scene::{Body, Finder, Orientation, RunOptions, Scene};
 use crate::state::{BodyMotion, BodyState};
 
+mod compound;
 pub mod cost;
 mod explain;
 mod group;
 mod method;
+mod series;
 mod watch;
 
+pub(crate) use compound::Compound;
 pub use group::{Any, Group};
 pub(crate) use watch::Toggle;
 
@@ -38,9 +41,11 @@ pub struct PlannedBody {
     pub properties: MassProperties,
     /// How it may move.
     pub freedom: Freedom,
-    /// Whether it stays where it is.
+    /// Whether nothing integrates it: it stays where it is, or is moved.
     pub fixed: bool,
-    /// Mass, inertia, and the motion it starts with.
+    /// The motion that it is moved along.
+    pub motion: Option<Prescribed>,
+    /// Mass, inertia, and the motion it starts with; of a body that is moved, that of time 0.
     pub start: BodyMotion,
     /// Largest distance of its matter from the centre of mass [m]; 0 without a shape.
     pub radius: f64,
@@ -49,8 +54,21 @@ pub struct PlannedBody {
 }
 
 impl PlannedBody {
-    /// The motion that a state of this body means.
-    pub fn motion(&self, state: &BodyState) -> BodyMotion {
+    /// Whether it is moved along a prescribed motion that does not stand still from `t` [s] on.
+    pub(crate) fn is_moved(&self, t: f64) -> bool {
+        self.motion.as_ref().is_some_and(|motion| motion.moves(t))
+    }
+
+    /// The motion at the instant `t` of a body that nothing integrates.
+    pub(crate) fn motion_at(&self, t: Time) -> BodyMotion {
+        self.motion.as_ref().map_or(self.start, |motion| motion.at(&self.start, t, t.value))
+    }
+
+    /// The motion that a state of this body means at the time `t` [s].
+    pub fn motion(&self, state: &BodyState, t: f64) -> BodyMotion {
+        if self.motion.is_some() {
+            return self.motion_at(Time::new(t));
+        }
         let mut motion = self.start;
         if !self.fixed {
             motion.set_state(state, &self.properties.inv_inertia());
@@ -117,7 +135,7 @@ pub struct Plan {
     scene: Scene,
     options: RunOptions,
     bodies: Vec<PlannedBody>,
-    groups: Vec<FlightGroup>,
+    groups: Vec<Arc<FlightGroup>>,
     left_out: Vec<LeftOut>,
 }
 
@@ -184,6 +202,7 @@ impl Plan {
         for group in &mut groups {
             group.choose_method(&bodies, options)?;
         }
+        let groups = groups.into_iter().map(Arc::new).collect();
         let plan = Self { scene, options: options.clone(), bodies, groups, left_out };
 
         // every freedom is tried once, so that a start that it does not allow is found here
@@ -199,7 +218,7 @@ impl Plan {
     }
 
     /// The bodies that share an integrator, group by group.
-    pub fn groups(&self) -> &[FlightGroup] {
+    pub fn groups(&self) -> &[Arc<FlightGroup>] {
         &self.groups
     }
 
@@ -212,6 +231,29 @@ impl Plan {
     pub fn method(&self) -> Method {
         let chosen = self.groups.iter().map(|group| group.method).find(|&method| method != Method::Exact);
         self.options.method.or(chosen).unwrap_or(Method::Exact)
+    }
+
+    /// Order of the method, of several the least; 0 where all is closed form.
+    pub fn order(&self) -> u32 {
+        let groups = self.groups.iter().filter(|group| group.method != Method::Exact);
+        groups.map(|group| self.order_of(group.method)).min().unwrap_or(0)
+    }
+
+    /// Order of a method: the one asked for, of power series else that which the tolerance calls for.
+    fn order_of(&self, method: Method) -> u32 {
+        match (method, self.options.order, self.tolerance()) {
+            (Method::Taylor | Method::Dmv, Some(order), _) => order,
+            (Method::Taylor, None, Some(tolerance)) => taylor::order_for(tolerance, self.options.estimate),
+            _ => method.order(),
+        }
+    }
+
+    /// Work of a step of a method at its order, as a multiple of that at the order which costs are measured at [-].
+    pub(crate) fn effort(&self, method: Method) -> f64 {
+        match method {
+            Method::Taylor => taylor::effort(self.order_of(method)),
+            _ => 1.0,
+        }
     }
 
     /// How to run it.
@@ -276,6 +318,18 @@ impl Plan {
         held: &[usize],
     ) -> Result<Box<dyn Flight>> {
         let charts = self.charts(group, held)?;
+        Ok(self.flight_of(&self.groups[group], t, control, charts, motions))
+    }
+
+    /// The flight of bodies with these coordinates and what acts on them.
+    pub(crate) fn flight_of(
+        &self,
+        spec: &FlightGroup,
+        t: f64,
+        control: &Control,
+        charts: Vec<Chart>,
+        motions: &[BodyMotion],
+    ) -> Box<dyn Flight> {
         let n = charts.iter().map(Chart::dimension).sum();
         let mut y = vec![0.0; n];
         let mut at = 0;
@@ -285,7 +339,7 @@ impl Plan {
         }
 
         let control = match control {
-            Control::Error(limits) if self.groups[group].meets && self.options.finder != Finder::Guaranteed => {
+            Control::Error(limits) if spec.meets && self.options.finder != Finder::Guaranteed => {
                 // finer runs look more often, so that what the coarser missed shows in their difference
                 let finer = libm::pow(limits.local / LOOKED_AT_LOCAL, 1.0 / 8.0);
                 let longest = limits.longest.min(finer * self.first_step(limits.scales.time));
@@ -294,7 +348,7 @@ impl Plan {
             other => other.clone(),
         };
 
-        let (spec, motions) = (&self.groups[group], motions.to_vec());
+        let motions = motions.to_vec();
         if spec.method == Method::Exact {
             // a closed form has no steps of its own: they follow the turning where events look along them
             let control = match control {
@@ -304,13 +358,13 @@ impl Plan {
                 }
                 other => other,
             };
-            let motion = ClosedMotion::new(Time::new(t), self.starts(group, &charts, &motions));
+            let motion = ClosedMotion::new(Time::new(t), spec.starts(&charts, &motions));
             let problem = Group::<Any>::new(charts, motions, spec.bindings.clone());
-            return Ok(Box::new(ClosedFlight::new(problem, motion, control)));
+            return Box::new(ClosedFlight::new(problem, motion, control));
         }
         let bodies = group::Bodies { charts, motions, bindings: spec.bindings.clone() };
-        let course = group::Course { control, projection: self.options.projection };
-        Ok(group::flight(bodies, spec.method, course, t, &y))
+        let course = group::Course { control, projection: self.options.projection, order: self.order_of(spec.method) };
+        group::flight(bodies, spec.method, course, t, &y)
     }
 
     /// A step that follows every body's turning and the span, from which a tolerance is worked out [s].
@@ -331,7 +385,8 @@ const FIRST_STEPS: f64 = 32.0;
 /// Checks one body and works out its mass and its start.
 fn planned(body: &Body) -> Result<PlannedBody> {
     body.validate()?;
-    let properties = if body.fixed {
+    let fixed = body.fixed || body.motion.is_some();
+    let properties = if fixed {
         MassProperties { mass: 0.0, center_of_mass: Vector3::zeros(), inertia: Matrix3::zeros() }
     } else {
         body.mass_properties()?
@@ -349,14 +404,15 @@ fn planned(body: &Body) -> Result<PlannedBody> {
     };
     start.velocity = body.velocity.map_or_else(|| freedom_velocity(&body.freedom, &start), Vector3::from);
     let radius = match &body.shape {
-        Some(shape) if !body.fixed => shape.bounding_radius(&properties.center_of_mass),
+        Some(shape) if !fixed => shape.bounding_radius(&properties.center_of_mass),
         _ => 0.0,
     };
     Ok(PlannedBody {
         name: body.name.clone(),
         properties,
         freedom: body.freedom.clone(),
-        fixed: body.fixed,
+        fixed,
+        motion: body.motion.clone(),
         start,
         radius,
         collider: None,
@@ -401,6 +457,9 @@ impl Grouping {
             }
             if let Some(&fixed) = members.iter().find(|&&i| bodies[i].fixed && !together) {
                 return Err(Error::value(place, "body", "one that can move", &bodies[fixed].name));
+            }
+            if let Some(&moved) = members.iter().find(|&&i| bodies[i].motion.is_some()) {
+                return Err(Error::value(place, "body", "one without a prescribed motion", &bodies[moved].name));
             }
             if let Some(why) = effect.as_effect().idle() {
                 left_out.push(LeftOut { what: place, why: why.to_owned() });
@@ -496,7 +555,9 @@ fn collisions(
     let fixed: Vec<&str> = solid.iter().filter(|&&i| bodies[i].fixed).map(|&i| bodies[i].name.as_str()).collect();
     if fixed.len() > 1 {
         let what = format!("pairs of {}", fixed.join(", "));
-        left_out.push(LeftOut { what, why: "all are fixed".to_owned() });
+        let why =
+            if solid.iter().any(|&i| bodies[i].motion.is_some()) { "all are fixed or moved" } else { "all are fixed" };
+        left_out.push(LeftOut { what, why: why.to_owned() });
     }
     if solid.len() < 2 || fixed.len() == solid.len() {
         return Ok(());
@@ -519,14 +580,6 @@ fn collisions(
                 let allowed = format!("at least {rounding:e}, the rounding of the coordinates of {}", bodies[i].name);
                 return Err(Error::value("run", "eps", allowed, eps));
             }
-            let sticks_to = |&j: &usize| {
-                j != i && !bodies[j].fixed && (scene.bodies[i].response, scene.bodies[j].response) != BOUNCE
-            };
-            if let Some(j) = solid.iter().copied().find(sticks_to) {
-                let what = format!("pair {}–{}", bodies[i.min(j)].name, bodies[i.max(j)].name);
-                let reason = format!("sticking is answered to fixed bodies only; {never}");
-                return Err(Error::refused(what, reason));
-            }
         }
         let Some(shape) = &scene.bodies[i].shape else { continue };
         let collider = Collider::new(shape).map_err(|error| Error::refused(place, format!("{error}; {never}")))?;
@@ -537,9 +590,6 @@ fn collisions(
     }
     Ok(())
 }
-
-/// Both bodies of a pair bounce.
-const BOUNCE: (Response, Response) = (Response::Bounce, Response::Bounce);
 
 impl Plan {
     /// What a pair of bodies does when they touch.

@@ -49,6 +49,9 @@ pub(super) fn watched(scene: &Scene, bodies: &[PlannedBody], options: &RunOption
         if let Some(twice) = named.iter().enumerate().find(|(i, m)| named[..*i].contains(m)) {
             return Err(Error::value(place, "bodies", "different from each other", &bodies[*twice.1].name));
         }
+        if let Some(&moved) = named.iter().find(|&&i| bodies[i].motion.is_some()) {
+            return Err(Error::value(place, "bodies", "without a prescribed motion", &bodies[moved].name));
+        }
         if named.iter().all(|&i| bodies[i].fixed) {
             return Err(Error::value(place, "bodies", "at least one that can move", &event.bodies));
         }

@@ -2,7 +2,7 @@
 
 pub use crate::contact::Response;
 use crate::error::{Error, Result};
-use crate::freedom::Freedom;
+use crate::freedom::{Freedom, Prescribed};
 use crate::mass::MassProperties;
 use crate::math::{Matrix3, Vector3, quaternion};
 use crate::shape::Shape;
@@ -57,6 +57,9 @@ pub struct Body {
     /// Whether it stays where it is.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub fixed: bool,
+    /// The motion that it is moved along, whatever it meets; its position and orientation are those at time 0.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub motion: Option<Prescribed>,
     /// How it may move.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_free"))]
     pub freedom: Freedom,
@@ -126,6 +129,7 @@ impl Body {
             restitution: 0.0,
             response: Response::Bounce,
             fixed: false,
+            motion: None,
             freedom: Freedom::Free,
             collides: true,
         }
@@ -215,6 +219,13 @@ impl Body {
         self
     }
 
+    /// The motion that it is moved along, whatever it meets.
+    #[must_use]
+    pub fn motion(mut self, motion: Prescribed) -> Self {
+        self.motion = Some(motion);
+        self
+    }
+
     /// How it may move.
     #[must_use]
     pub fn freedom(mut self, freedom: Freedom) -> Self {
@@ -264,9 +275,10 @@ impl Body {
                 return Err(Error::value(place, field, "a finite number > 0", value));
             }
         }
-        if self.fixed {
+        let without_mass = [(self.fixed, "a fixed body"), (self.motion.is_some(), "a body with a motion")];
+        if let Some((_, what)) = without_mass.into_iter().find(|(is, _)| *is) {
             return match &self.shape {
-                None => Err(Error::refused(place, "a fixed body needs a shape, else it is nothing at all")),
+                None => Err(Error::refused(place, format!("{what} needs a shape, else it is nothing at all"))),
                 Some(_) => Ok(()),
             };
         }
@@ -307,12 +319,20 @@ impl Body {
         if self.angular_velocity.is_some() && self.angular_velocity_body.is_some() {
             return Err(Error::refused(place, "angular_velocity and angular_velocity_body exclude each other"));
         }
-        if self.fixed {
+        if let Some(motion) = &self.motion {
+            motion.validate(place, self.shape.as_ref())?;
+            if self.fixed {
+                return Err(Error::refused(place, "fixed and motion exclude each other"));
+            }
+        }
+        let given =
+            [(self.fixed, "fixed", "the body is fixed"), (self.motion.is_some(), "motion", "its motion says it")];
+        if let Some((_, word, why)) = given.into_iter().find(|(is, ..)| *is) {
             if let Some((field, value)) = vectors[2..].iter().find_map(|(f, v)| v.map(|v| (*f, v))) {
-                return Err(Error::value(place, field, "left out, since the body is fixed", value));
+                return Err(Error::value(place, field, format!("left out, since {why}"), value));
             }
             if self.freedom != Freedom::Free {
-                return Err(Error::refused(place, "fixed and freedom exclude each other"));
+                return Err(Error::refused(place, format!("{word} and freedom exclude each other")));
             }
         }
         Ok(())

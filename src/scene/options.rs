@@ -103,6 +103,10 @@ pub struct RunOptions {
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none", deserialize_with = "method_or_auto"))]
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub method: Option<Method>,
+    /// Order of the methods `taylor` (if absent, that which the tolerance calls for, 8 where the step is given) and
+    /// `dmv` (10).
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub order: Option<u32>,
     /// Length of a step [s].
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub step: Option<f64>,
@@ -138,6 +142,7 @@ impl Default for RunOptions {
             t_span: None,
             tolerance: None,
             method: None,
+            order: None,
             step: None,
             t_eval: None,
             estimate: true,
@@ -178,6 +183,13 @@ impl RunOptions {
     /// A run with this method; give it a step.
     pub fn method(method: Method) -> Self {
         Self { method: Some(method), ..Self::default() }
+    }
+
+    /// Order of the methods `taylor` and `dmv`.
+    #[must_use]
+    pub fn order(mut self, order: u32) -> Self {
+        self.order = Some(order);
+        self
     }
 
     /// Length of a step [s].
@@ -282,6 +294,16 @@ impl RunOptions {
         }
         if self.step.is_some() && self.method.is_none() {
             return Err(Error::refused("run", "a step needs a method beside it"));
+        }
+        if let Some(order) = self.order {
+            match self.method.and_then(|method| method.allows_order(order)) {
+                None => {
+                    let reason = "an order needs the method taylor or dmv beside it: others have their own";
+                    return Err(Error::refused("run", reason));
+                }
+                Some((allowed, false)) => return Err(Error::value("run", "order", allowed, order)),
+                Some(_) => {}
+            }
         }
         if let Some(span) = self.t_span {
             self.times(span.into())?;

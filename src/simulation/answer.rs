@@ -1,4 +1,4 @@
-//! What happens at an instant of contact: impact, merging with what is fixed, and who stays together after it.
+//! What happens at an instant of contact: impact, merging with what is fixed or each other, and who stays together after it.
 //!
 //! ```text
 //! u > v_rest      a bounce with the pairs' restitutions, also of pairs that the blow reaches only
@@ -14,12 +14,13 @@ use super::lasting::{Part, shift_by};
 use super::led::Led;
 use super::near::{Due, What};
 use super::{Failure, Simulation, SimulationError};
-use crate::closest::ClosestFeatures;
 use crate::contact::accumulation::{Accumulation, rest_speed};
 use crate::contact::cluster::{ClusterError, Contact};
-use crate::contact::collision::{Collision, collide};
+use crate::contact::collision::collide;
 use crate::contact::rest::align;
-use crate::contact::{Answer, Response, stick};
+use crate::error::Error;
+use crate::freedom::Chart;
+use crate::freedom::riding::follow;
 use crate::math::Vector3;
 use crate::math::sum::Time;
 use crate::state::{BodyMotion, Load};
@@ -73,22 +74,30 @@ impl Simulation {
         iterations: u32,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
-        let mut cluster = self.whole_cluster(seeds, time)?;
-        self.lift(&mut cluster);
+        // bodies that stick to each other become one, pair by pair
+        let (mut seeds, mut iterations) = (seeds.to_vec(), iterations);
+        let (mut cluster, scales) = loop {
+            let mut cluster = self.whole_cluster(&seeds, time)?;
+            self.lift(&mut cluster);
+            let scales = self.scales(&cluster, time);
+            self.check_moved(&cluster, &scales, time)?;
+            let Some(pair) = self.sticking(&cluster, &scales) else { break (cluster, scales) };
+            self.merge(&cluster, pair, time, iterations, record)?;
+            self.iterations += u64::from(iterations);
+            iterations = 0;
+            seeds = self.bodies_of(&cluster);
+        };
         let before = cluster.motions.clone();
 
-        // bodies that stick to a fixed one stop; the others are answered all at once
+        // those that stick to what is fixed stop; the others are answered all at once
         let stuck = self.stick(&mut cluster);
-        for (body, answer, closest, obstacle) in &stuck {
-            self.book_stick(&cluster, &before, *body, *answer, closest, *obstacle, (time, iterations));
-        }
-        let scales = self.scales(&cluster, time);
+        self.book_stuck(&cluster, &before, stuck, time, iterations);
         let bounced = self.collide(&mut cluster, &scales, time, iterations)?;
         if bounced {
-            for &body in cluster.bodies.iter().filter(|&&i| self.places[i].is_some()) {
+            for body in self.bodies_of(&cluster).into_iter().filter(|&i| self.places[i].is_some()) {
                 if self.near.count_hit(body, time.value) > ROUNDS_AT_ONCE {
                     let why = format!("{ROUNDS_AT_ONCE} impacts at one instant");
-                    return Err(self.failure_of(seeds, time.value, Failure::AccumulatingImpacts(why)));
+                    return Err(self.failure_of(&seeds, time.value, Failure::AccumulatingImpacts(why)));
                 }
             }
         }
@@ -129,7 +138,7 @@ impl Simulation {
             let cluster = self.cluster(&seeds, time)?;
             let led = cluster.bodies.iter().filter_map(|&body| self.slot(body));
             let all = led.filter_map(|slot| self.together[slot].as_ref()).flat_map(|t| &t.bodies);
-            let missing: Vec<usize> = all.copied().filter(|&body| cluster.place(body).is_none()).collect();
+            let missing: Vec<usize> = all.copied().filter(|&body| cluster.place(self.unit(body)).is_none()).collect();
             if missing.is_empty() {
                 return Ok(cluster);
             }
@@ -141,8 +150,11 @@ impl Simulation {
 
     /// Lifts bodies off each other whose gap rounding has used up.
     fn lift(&self, cluster: &mut Cluster) {
-        let eps = |contact: &Contact| self.eps(cluster.bodies[contact.a], cluster.bodies[contact.b]);
-        if cluster.contacts.iter().zip(&cluster.gaps).all(|(contact, gap)| *gap >= LIFT * eps(contact)) {
+        let mut eps = vec![0.0; cluster.contacts.len()];
+        for touching in &cluster.touching {
+            eps[touching.contacts.clone()].fill(self.eps(touching.bodies[0], touching.bodies[1]));
+        }
+        if eps.iter().zip(&cluster.gaps).all(|(eps, gap)| *gap >= LIFT * eps) {
             return;
         }
         let normal = |c: &Contact| c.normals.iter().sum::<Vector3>().try_normalize(0.0);
@@ -152,7 +164,7 @@ impl Simulation {
         let mut missing = vec![0.0_f64; cluster.contacts.len()];
         for touching in &cluster.touching {
             let range = touching.contacts.clone();
-            let wanted = |i: usize| 0.5 * eps(&cluster.contacts[i]) - cluster.gaps[i];
+            let wanted = |i: usize| 0.5 * eps[i] - cluster.gaps[i];
             let most = range.clone().map(wanted).fold(0.0, f64::max);
             missing[range].fill(most);
         }
@@ -167,29 +179,14 @@ impl Simulation {
         }
     }
 
-    /// Stops the bodies that stick to a fixed one.
-    fn stick(&mut self, cluster: &mut Cluster) -> Vec<(usize, Answer, ClosestFeatures, usize)> {
-        let mut stuck: Vec<(usize, Answer, ClosestFeatures, usize)> = Vec::new();
-        for touching in &cluster.touching {
-            let [a, b] = touching.bodies;
-            let sticks = self.plan.material(a, b).response == Response::Stick && self.plan.bodies()[a].fixed;
-            let Some(place) = cluster.bodies.iter().position(|&i| i == b).filter(|_| sticks) else { continue };
-            if !self.is_stuck(b) {
-                stuck.push((b, stick::stick(&mut cluster.motions[place]), touching.closest, a));
-                self.stuck.push(b);
-            }
-        }
-        stuck
-    }
-
     /// The scales of a cluster.
     fn scales(&self, cluster: &Cluster, time: Time) -> ContactScales {
         let pull = |(&body, motion): (&usize, &BodyMotion)| match self.places[body] {
             Some((lane, _)) => {
                 let still = BodyMotion { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros(), ..*motion };
                 let Load { force, torque } = self.load_on(lane, &still, self.moment(lane, time.value));
-                let inverse = self.plan.bodies()[body].properties.inv_inertia();
-                let turning = (inverse * motion.rotation.tr_mul(&torque)).norm() * self.plan.bodies()[body].radius;
+                let inverse = self.body(body).properties.inv_inertia();
+                let turning = (inverse * motion.rotation.tr_mul(&torque)).norm() * self.body(body).radius;
                 (force / motion.mass).norm() + turning
             }
             None => 0.0,
@@ -198,7 +195,7 @@ impl Simulation {
         let size = cluster.touching.iter().map(|t| self.size(t.bodies[0], t.bodies[1])).fold(f64::INFINITY, f64::min);
         let size = if size.is_finite() { size } else { 0.0 };
         let speed = |(&body, motion): (&usize, &BodyMotion)| {
-            motion.velocity.norm() + motion.angular_velocity.norm() * self.plan.bodies()[body].radius
+            motion.velocity.norm() + motion.angular_velocity.norm() * self.body(body).radius
         };
         let fastest = cluster.bodies.iter().zip(&cluster.motions).map(speed).fold(0.0, f64::max);
         let rest = rest_speed(pull, REST_RISE * size);
@@ -235,23 +232,30 @@ impl Simulation {
             (motion.velocity, motion.angular_velocity) = (velocity.linear, velocity.angular);
         }
 
+        self.touch_impacts += u64::from(self.depends_on_touch(cluster, &collision.impulses));
+
         // one event for every pair that bounced; what others lose is heat
+        let losses = cluster.losses(&before, &collision.impulses);
         let mut booked = 0.0;
         let mut iterations = iterations;
-        for k in 0..cluster.touching.len() {
+        for (k, &loss) in losses.iter().enumerate() {
             let range = cluster.touching[k].contacts.clone();
             let bounces = approaches[range.clone()].iter().any(|&u| u > scales.rest)
                 || collision.impulses[range.clone()].iter().any(|j| {
                     let [a, b] = cluster.touching[k].bodies;
                     let mass = [a, b].map(|i| {
-                        if self.places[i].is_some() { self.plan.bodies()[i].properties.mass } else { f64::INFINITY }
+                        if self.places[i].is_some() { self.body(self.unit(i)).properties.mass } else { f64::INFINITY }
                     });
                     j.norm() > scales.rest * mass[0].min(mass[1])
                 });
             if bounces {
-                booked += self.book_bounce(cluster, &before, &collision, k, time, iterations);
+                let impulses = &collision.impulses[range];
+                booked += self.book_bounce(cluster, &before, impulses, (k, loss), time, iterations);
                 iterations = 0; // the rounds belong to the pair that was searched, not to those that came along
             }
+        }
+        if collision.work != 0.0 {
+            self.work.push(Heat::at(time.value, collision.work));
         }
         let heat = collision.energy_lost - booked;
         if heat != 0.0 {
@@ -260,19 +264,18 @@ impl Simulation {
         Ok(true)
     }
 
-    /// Books the bounce of a pair; the energy lost in it [J].
+    /// Books the bounce of a pair, its impulses and the energy lost in it [J]; what was booked of the latter.
     fn book_bounce(
         &mut self,
         cluster: &Cluster,
         before: &[BodyMotion],
-        collision: &Collision,
-        pair: usize,
+        impulses: &[Vector3],
+        (pair, energy_lost): (usize, f64),
         time: Time,
         iterations: u32,
     ) -> f64 {
         let touching = &cluster.touching[pair];
         let range = touching.contacts.clone();
-        let impulses = &collision.impulses[range.clone()];
         let impulse: Vector3 = impulses.iter().sum();
         if impulse == Vector3::zeros() {
             return 0.0;
@@ -280,31 +283,14 @@ impl Simulation {
         let weight: f64 = impulses.iter().map(Vector3::norm).sum();
         let contacts = &cluster.contacts[range];
         let point = contacts.iter().zip(impulses).map(|(c, j)| j.norm() / weight * c.point).sum();
-        let [Some(a), Some(b)] = touching.bodies.map(|i| cluster.place(i)) else { return 0.0 };
-        let after = &cluster.motions;
+        let [was, after] = [before, &cluster.motions].map(|motions| self.motions_of(cluster, touching.bodies, motions));
+        let (Some([was_a, was_b]), Some([a, b])) = (was, after) else { return 0.0 };
 
-        // what the contact took: −½ j·(u⁻ + u⁺), summed over its points
-        let speed = |motions: &[BodyMotion], p: &Vector3| motions[b].velocity_at(p) - motions[a].velocity_at(p);
-        let lost = |(c, j): (&Contact, &Vector3)| -0.5 * j.dot(&(speed(before, &c.point) + speed(after, &c.point)));
-        let energy_lost = contacts.iter().zip(impulses).map(lost).sum();
+        let normal = touching.closest.normal;
+        let event = Event::between(time.value, EventKind::Bounce, touching.bodies, [&was_a, &a], [&was_b, &b]);
+        let features = in_words(&touching.closest);
         self.watch(touching.bodies, time.value);
-        self.events.push(Event {
-            time: time.value,
-            kind: EventKind::Bounce,
-            name: String::new(),
-            passage: None,
-            bodies: touching.bodies,
-            point,
-            normal: touching.closest.normal,
-            impulse,
-            features: in_words(&touching.closest),
-            iterations,
-            velocity: [before[b].velocity, after[b].velocity],
-            angular_velocity: [before[b].angular_velocity, after[b].angular_velocity],
-            other_velocity: [before[a].velocity, after[a].velocity],
-            other_angular_velocity: [before[a].angular_velocity, after[a].angular_velocity],
-            energy_lost,
-        });
+        self.events.push(Event { point, normal, impulse, features, iterations, energy_lost, ..event });
         energy_lost
     }
 
@@ -325,60 +311,18 @@ impl Simulation {
         end.map_or(now, |end| end.max(now))
     }
 
-    /// Books that a body has stuck to a fixed one.
-    #[expect(clippy::too_many_arguments, reason = "what is written down of an event")]
-    fn book_stick(
-        &mut self,
-        cluster: &Cluster,
-        before: &[BodyMotion],
-        body: usize,
-        answer: Answer,
-        closest: &ClosestFeatures,
-        obstacle: usize,
-        (time, iterations): (Time, u32),
-    ) {
-        let Some(place) = cluster.place(body) else { return };
-        self.events.push(Event {
-            time: time.value,
-            kind: EventKind::Stick,
-            name: String::new(),
-            passage: None,
-            bodies: [obstacle, body],
-            point: closest.point_b,
-            normal: closest.normal,
-            impulse: answer.impulse,
-            features: in_words(closest),
-            iterations,
-            velocity: [before[place].velocity, Vector3::zeros()],
-            angular_velocity: [before[place].angular_velocity, Vector3::zeros()],
-            other_velocity: [Vector3::zeros(); 2],
-            other_angular_velocity: [Vector3::zeros(); 2],
-            energy_lost: answer.energy_lost,
-        });
-    }
-
     /// Books that a part stays together from now on, one event a pair.
     fn book_part(&mut self, cluster: &Cluster, before: &[BodyMotion], part: &Part, time: Time, kind: EventKind) {
         for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
-            let [Some(a), Some(b)] = touching.bodies.map(|i| cluster.place(i)) else { continue };
-            let after = &cluster.motions;
+            let [was, after] =
+                [before, &cluster.motions].map(|motions| self.motions_of(cluster, touching.bodies, motions));
+            let (Some([was_a, was_b]), Some([a, b])) = (was, after) else { continue };
             let time = self.end_of_bounces(touching.bodies, time.value);
             self.events.push(Event {
-                time,
-                kind,
-                name: String::new(),
-                passage: None,
-                bodies: touching.bodies,
                 point: touching.closest.point_b,
                 normal: touching.closest.normal,
-                impulse: Vector3::zeros(),
                 features: in_words(&touching.closest),
-                iterations: 0,
-                velocity: [before[b].velocity, after[b].velocity],
-                angular_velocity: [before[b].angular_velocity, after[b].angular_velocity],
-                other_velocity: [before[a].velocity, after[a].velocity],
-                other_angular_velocity: [before[a].angular_velocity, after[a].angular_velocity],
-                energy_lost: 0.0,
+                ..Event::between(time, kind, touching.bodies, [&was_a, &a], [&was_b, &b])
             });
         }
     }
@@ -412,16 +356,10 @@ impl Simulation {
         time: Time,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
-
         // parts that were led are led anew
         let slots: Vec<usize> = cluster.bodies.iter().filter_map(|&body| self.slot(body)).collect();
         for slot in slots {
-            let part = self.together[slot].take();
-            let heat = part.and_then(|part| part.heat).and_then(|at| self.heat.get_mut(at));
-            if let Some(heat) = heat.filter(|heat| heat.to > time.value && heat.from < time.value) {
-                heat.cut(time.value);
-            }
+            self.end_together(slot, time);
         }
         let mut lanes: Vec<usize> = Vec::new();
         for (place, &body) in cluster.bodies.iter().enumerate() {
@@ -433,7 +371,8 @@ impl Simulation {
                 || was_held != holds
                 || was_led
                 || modes[place] == Mode::Lead
-                || self.released.iter().any(|(pair, _)| pair.contains(&body)) && !holds;
+                || self.joined.contains(&body)
+                || self.released.iter().any(|(pair, _)| pair.iter().any(|&i| self.unit(i) == body)) && !holds;
             self.lanes[lane].held.retain(|held| *held != body);
             if holds {
                 self.lanes[lane].held.push(body);
@@ -444,7 +383,7 @@ impl Simulation {
         }
         lanes.sort_unstable();
         for &lane in &lanes {
-            let leads = plan.groups()[self.lanes[lane].group].members.iter().any(|&body| {
+            let leads = self.lanes[lane].spec.members.iter().any(|&body| {
                 cluster.place(body).is_some_and(|place| modes[place] == Mode::Lead && !self.is_stuck(body))
             });
             self.begin_flight(lane, time, cluster, leads, record)?;
@@ -458,20 +397,21 @@ impl Simulation {
             }
         }
         for &lane in &lanes {
-            for &body in &plan.groups()[self.lanes[lane].group].members {
-                if plan.bodies()[body].collider.is_some() && self.places[body].is_some() {
+            for &body in &self.lanes[lane].spec.clone().members {
+                if self.body(body).collider.is_some() && self.places[body].is_some() {
                     self.open_window(body, time.value, record)?;
                 }
             }
             self.wake_at_switch(lane, time);
         }
         self.released.clear();
+        self.joined.clear();
         Ok(())
     }
 
     /// Wakes the body that rests in a lane where its load jumps.
     fn wake_at_switch(&mut self, lane: usize, time: Time) {
-        let spec = &self.plan.groups()[self.lanes[lane].group];
+        let spec = &self.lanes[lane].spec;
         let Some(&body) = self.lanes[lane].held.first() else { return };
         if let Some(&switch) = spec.switches.iter().find(|&&s| s > time.value)
             && !self.is_stuck(body)
@@ -492,12 +432,44 @@ impl Simulation {
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
-        let members = &plan.groups()[self.lanes[index].group].members;
+        let spec = self.lanes[index].spec.clone();
         let mut motions = self.lanes[index].motions.clone();
-        for (motion, &member) in motions.iter_mut().zip(members) {
+        for (motion, &member) in motions.iter_mut().zip(&spec.members) {
             *motion =
                 cluster.place(member).map_or_else(|| self.motion_at(member, time), |place| cluster.motions[place]);
         }
+        self.cut_flight(index, time, record)?;
+
+        let since = self.moment(index, time.value).since;
+        let charts = self
+            .charts_of(index)
+            .map_err(|error| self.failure(index, time.value, Failure::Refused(error.to_string())))?;
+        follow(&charts, &mut motions);
+        let joined = self.joined.contains(spec.members.first().unwrap_or(&usize::MAX));
+        let lane = &mut self.lanes[index];
+        lane.earlier.add(lane.flight.counts());
+        lane.led = None;
+        lane.flight = if leads {
+            Box::new(Led::new(charts.clone(), time, &motions))
+        } else {
+            plan.flight_of(&spec, time.value, &self.controls[lane.group], charts.clone(), &motions)
+        };
+        lane.flight.set_clock(time, since);
+        let is_new = joined || charts != lane.charts;
+        (lane.charts, lane.motions, lane.number) = (charts, motions, lane.number + 1);
+        if let (Some(run), true) = (record.as_mut(), is_new) {
+            self.begin_phases(index, time.value, run);
+        }
+        Ok(())
+    }
+
+    /// Ends a lane's flight at `time`, and records it.
+    pub(super) fn cut_flight(
+        &mut self,
+        index: usize,
+        time: Time,
+        record: &mut Option<&mut Trajectory>,
+    ) -> Result<(), SimulationError> {
         let lane = &mut self.lanes[index];
         if lane.pending.is_some() {
             let offset = (time.value - lane.flight.segment().start) + time.rest;
@@ -505,34 +477,37 @@ impl Simulation {
                 lane.flight.cut(offset);
             }
         }
-        self.finish_step(index, record)?;
+        self.finish_step(index, record)
+    }
 
-        let since = self.moment(index, time.value).since;
-        let lane = &mut self.lanes[index];
-        lane.earlier.add(lane.flight.counts());
-        lane.led = None;
-        let charts = plan.charts(lane.group, &lane.held);
-        let begun = charts.and_then(|charts| {
-            let flight = if leads {
-                Box::new(Led::new(charts.clone(), time, &motions))
-            } else {
-                plan.flight_for(lane.group, time.value, &self.controls[lane.group], &motions, &lane.held)?
-            };
-            if let (Some(run), true) = (record.as_mut(), charts != lane.charts) {
-                lane.phase = run.phases.len();
-                run.phases.push(plan.phase(lane.group, time.value, &motions, &lane.held)?);
+    /// Ends a step of bodies that are led, with its heat till then.
+    pub(super) fn end_together(&mut self, slot: usize, time: Time) {
+        let Some(part) = self.together[slot].take() else { return };
+        for (list, at) in [(&mut self.heat, part.heat), (&mut self.work, part.work)] {
+            let passed = at.and_then(|at| list.get_mut(at));
+            if let Some(passed) = passed.filter(|passed| passed.to > time.value && passed.from < time.value) {
+                passed.cut(time.value);
             }
-            Ok((flight, charts))
-        });
-        match begun {
-            Ok((flight, charts)) => {
-                lane.flight = flight;
-                lane.flight.set_clock(time, since);
-                (lane.charts, lane.motions, lane.number) = (charts, motions, lane.number + 1);
-                Ok(())
-            }
-            Err(error) => Err(self.failure(index, time.value, Failure::Refused(error.to_string()))),
         }
+    }
+
+    /// The coordinates of a lane's bodies, some of which may be held.
+    pub(super) fn charts_of(&self, index: usize) -> Result<Vec<Chart>, Error> {
+        let lane = &self.lanes[index];
+        match lane.compound {
+            Some(compound) => self.plan.compound_charts(&self.compounds[compound], !lane.held.is_empty()),
+            None => self.plan.charts(lane.group, &lane.held),
+        }
+    }
+
+    /// The bodies of the scene in a cluster.
+    fn bodies_of(&self, cluster: &Cluster) -> Vec<usize> {
+        let (mut all, mut bodies) = (Vec::new(), Vec::new());
+        for &unit in &cluster.bodies {
+            self.parts_of(unit, &mut bodies);
+            all.extend(&bodies);
+        }
+        all
     }
 
     /// The part that a body is led with.
@@ -544,8 +519,8 @@ impl Simulation {
         self.slot(body).is_some()
     }
 
-    /// Whether a body has stuck to a fixed one, for good.
+    /// Whether a body has stuck to what is fixed, for good.
     pub(super) fn is_stuck(&self, body: usize) -> bool {
-        self.stuck.contains(&body)
+        !self.stuck.is_empty() && self.stuck.contains(&self.unit(body))
     }
 }

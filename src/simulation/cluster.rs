@@ -8,7 +8,7 @@ use crate::contact::broad_phase::Aabb;
 use crate::contact::cluster::{ClusterBody, Contact};
 use crate::contact::manifold::{Surface, Touch, manifold};
 use crate::math::sum::Time;
-use crate::math::{Pose, quaternion};
+use crate::math::{Pose, Vector3, quaternion};
 use crate::shape::Shape;
 use crate::state::BodyMotion;
 use crate::tolerance::TOUCH_GAP;
@@ -35,7 +35,7 @@ pub(super) struct Cluster {
 }
 
 impl Cluster {
-    /// Adds a body, if it is not in; its place.
+    /// Adds a body that flies on its own, if it is not in; its place.
     pub(super) fn add(&mut self, body: usize, motion: BodyMotion) -> usize {
         self.place(body).unwrap_or_else(|| {
             self.bodies.push(body);
@@ -49,6 +49,25 @@ impl Cluster {
         self.bodies.iter().position(|&i| i == body)
     }
 
+    /// The energy that each pair lost in an impact [J], after it: −½ j·(u⁻ + u⁺), summed over its points. Where
+    /// one pair drives another, some of these sums are negative and others too large; then the positive ones share
+    /// what all have lost, in proportion.
+    pub(super) fn losses(&self, before: &[BodyMotion], impulses: &[Vector3]) -> Vec<f64> {
+        let lost = |i: usize| {
+            let contact = &self.contacts[i];
+            -0.5 * impulses[i].dot(&(contact.slip(before) + contact.slip(&self.motions)))
+        };
+        let mut losses: Vec<f64> = self.touching.iter().map(|t| t.contacts.clone().map(lost).sum()).collect();
+        if losses.iter().any(|loss| *loss < 0.0) {
+            let (all, taken) = (losses.iter().sum::<f64>(), losses.iter().filter(|loss| **loss > 0.0).sum::<f64>());
+            let part = if taken > 0.0 { (all / taken).max(0.0) } else { 0.0 };
+            for loss in &mut losses {
+                *loss = part * loss.max(0.0);
+            }
+        }
+        losses
+    }
+
     /// How fast the bodies of a contact approach at its point [m/s]; the fastest of its normals.
     pub(super) fn approach(&self, contact: &Contact) -> f64 {
         let [a, b] = [contact.a, contact.b].map(|k| self.motions[k].velocity_at(&contact.point));
@@ -59,38 +78,63 @@ impl Cluster {
 impl Simulation {
     /// All that touches at `time`, starting from these bodies.
     pub(super) fn cluster(&self, seeds: &[usize], time: Time) -> Result<Cluster, SimulationError> {
-        let plan = &self.plan;
         let mut cluster = Cluster::default();
         for &body in seeds {
-            cluster.add(body, self.motion_at(body, time));
+            let unit = self.unit(body);
+            cluster.add(unit, self.motion_at(unit, time));
         }
-        let (mut next, mut others) = (0, Vec::new());
+        let (mut next, mut bodies, mut others) = (0, Vec::new(), Vec::new());
         while next < cluster.bodies.len() {
-            let (body, motion) = (cluster.bodies[next], cluster.motions[next]);
+            self.parts_of(cluster.bodies[next], &mut bodies);
+            let unit = cluster.motions[next];
             next += 1;
-            if plan.bodies()[body].fixed {
-                continue;
-            }
-            let radius = plan.bodies()[body].radius;
-            self.near.around(&Aabb::of_ball(&motion.position, radius + self.reach_of(radius)), &mut others);
-            for &other in others.iter().filter(|&&other| other != body && plan.may_meet(body, other)) {
-                let pair = if plan.bodies()[other].fixed || other < body { [other, body] } else { [body, other] };
-                if cluster.touching.iter().any(|touching| touching.bodies == pair) {
-                    continue;
-                }
-                let closest = self.closest(pair[0], pair[1], time)?;
-                let reach = self.eps(pair[0], pair[1]) + TOUCH_GAP * self.size(pair[0], pair[1]);
-                if closest.signed_distance > reach {
-                    continue;
-                }
-                let places = [pair[0], pair[1]].map(|i| cluster.add(i, self.motion_at(i, time)));
-                let first = cluster.contacts.len();
-                self.add_contacts(&mut cluster, pair, time, places, reach)?;
-                let contacts = first..cluster.contacts.len();
-                cluster.touching.push(Touching { bodies: pair, closest, contacts });
+            for &body in &bodies {
+                let center = self.part_motion(body, &unit).position;
+                self.add_touching(&mut cluster, (body, center), time, &mut others)?;
             }
         }
         Ok(cluster)
+    }
+
+    /// Adds what touches a body of the scene, whose centre of mass is there.
+    fn add_touching(
+        &self,
+        cluster: &mut Cluster,
+        (body, center): (usize, Vector3),
+        time: Time,
+        others: &mut Vec<usize>,
+    ) -> Result<(), SimulationError> {
+        let plan = &self.plan;
+        if plan.bodies()[body].fixed {
+            return Ok(());
+        }
+        let radius = plan.bodies()[body].radius;
+        self.near.around(&Aabb::of_ball(&center, radius + self.reach_of(radius)), others);
+        for &other in others.iter().filter(|&&other| self.may_meet(body, other)) {
+            let pair = if plan.bodies()[other].fixed || other < body { [other, body] } else { [body, other] };
+            if cluster.touching.iter().any(|touching| touching.bodies == pair) {
+                continue;
+            }
+            let closest = self.closest(pair[0], pair[1], time)?;
+            let reach = self.eps(pair[0], pair[1]) + TOUCH_GAP * self.size(pair[0], pair[1]);
+            if closest.signed_distance > reach {
+                continue;
+            }
+            let places = pair.map(|i| cluster.add(self.unit(i), self.motion_at(self.unit(i), time)));
+            let first = cluster.contacts.len();
+            self.add_contacts(cluster, pair, time, places, reach)?;
+            let contacts = first..cluster.contacts.len();
+            cluster.touching.push(Touching { bodies: pair, closest, contacts });
+        }
+        Ok(())
+    }
+
+    /// Whether a point took part in an impact that only `ε_touch` counts as touching: its gap is above ε.
+    pub(super) fn depends_on_touch(&self, cluster: &Cluster, impulses: &[Vector3]) -> bool {
+        cluster.touching.iter().any(|touching| {
+            let eps = self.eps(touching.bodies[0], touching.bodies[1]);
+            touching.contacts.clone().any(|i| cluster.gaps[i] > eps && impulses[i] != Vector3::zeros())
+        })
     }
 
     /// The points in which two bodies touch: of every two pieces within `reach` [m] all that carry.
@@ -133,10 +177,10 @@ impl Simulation {
 
     /// A body of a cluster as contacts meet it.
     pub(super) fn cluster_body(&self, body: usize, motion: &BodyMotion) -> ClusterBody {
-        if self.places[body].is_none() {
+        if self.places[body].is_none() || self.is_stuck(body) {
             return ClusterBody::driven(motion);
         }
-        ClusterBody::free(motion, &self.plan.bodies()[body].properties.inv_inertia())
+        ClusterBody::free(motion, &self.body(body).properties.inv_inertia())
     }
 
     /// Where the axes of a body's shape stand at an instant.

@@ -52,7 +52,8 @@ impl Comparison {
         }
         if !complete {
             comparison.worst = f64::INFINITY;
-            comparison.horizon = comparison.horizon.min(fine.times()[pairs.len().saturating_sub(1)]);
+            let last = fine.times().get(pairs.len().saturating_sub(1)).copied();
+            comparison.horizon = comparison.horizon.min(last.unwrap_or(f64::NEG_INFINITY));
         }
         comparison
     }
@@ -138,7 +139,7 @@ pub(crate) fn length_scale(run: &Trajectory) -> f64 {
     }
     let mut scale = 0.0_f64;
     for (index, body) in run.plan().bodies().iter().enumerate().filter(|(_, body)| !body.fixed) {
-        let start = run.states(0)[index].position;
+        let start = body.start.position;
         let path = (0..run.times().len()).map(|s| (run.states(s)[index].position - start).norm());
         scale = path.fold(scale.max(body.radius), f64::max);
     }

@@ -18,7 +18,7 @@ use crate::trajectory::Trajectory;
 
 /// How far a body moves in a window, in its own radii [-]. Longer: more pairs are looked at; shorter: more
 /// windows are opened. Results do not depend on it.
-const WINDOW: f64 = 2.0;
+pub(super) const WINDOW: f64 = 2.0;
 /// How many ε the loads would part bodies by while those that were let go are not looked at [-].
 const LEAVES: f64 = 4.0;
 /// Grazes of one pair in one search after which it is said to touch [-].
@@ -80,14 +80,14 @@ impl Simulation {
             return Ok(false);
         }
         self.near.windows = vec![None; plan.bodies().len()];
-        for (i, body) in plan.bodies().iter().enumerate().filter(|(_, body)| body.fixed) {
+        for (i, body) in plan.bodies().iter().enumerate().filter(|(_, body)| body.fixed && body.motion.is_none()) {
             let Some(collider) = &body.collider else { continue };
             let (center, reach) = collider.bounding_ball();
             let center = body.start.point(&(center - body.properties.center_of_mass));
             let aabb = reach.is_finite().then(|| Aabb::of_ball(&center, reach));
             self.near.open(i, f64::INFINITY, aabb);
         }
-        for (i, body) in plan.bodies().iter().enumerate().filter(|(_, body)| !body.fixed) {
+        for (i, body) in plan.bodies().iter().enumerate().filter(|(_, body)| !body.fixed || body.motion.is_some()) {
             if body.collider.is_some() {
                 self.open_window(i, self.time, record)?;
             }
@@ -102,18 +102,22 @@ impl Simulation {
         now: f64,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
-        let Some((lane, _)) = self.places[body] else { return Ok(()) };
         if now >= self.end {
             return Ok(());
         }
+        let Some((lane, _)) = self.places[body] else {
+            let aabb = self.open_window_of_moved(body, now);
+            let Some(aabb) = aabb else { return Ok(()) };
+            self.wake_around(body, &aabb, now);
+            return self.search_around(body, &aabb, now);
+        };
         if !self.lanes[lane].is_led() {
             self.step_over(lane, now, record)?;
         }
 
         // as long as the body takes for some of its radii
         let front = self.lanes[lane].flight.front();
-        let radius = plan.bodies()[body].radius;
+        let radius = self.reach_from_center(body);
         let (from, sag, ends) = {
             let path = self.path(body, now);
             let here = path.at(0.0);
@@ -135,11 +139,15 @@ impl Simulation {
             self.near.due.push(Due { time: Time::new(to), what: What::Window { body, number } });
         }
 
-        // who may be met within it
+        self.search_around(body, &aabb, now)
+    }
+
+    /// Searches the pairs of a body with those that it may meet within its window.
+    fn search_around(&mut self, body: usize, aabb: &Aabb, now: f64) -> Result<(), SimulationError> {
         let mut others = Vec::new();
-        self.near.around(&aabb, &mut others);
+        self.near.around(aabb, &mut others);
         for other in others {
-            if other != body && plan.may_meet(body, other) {
+            if self.may_meet(body, other) {
                 self.search(body, other, now)?;
             }
         }
@@ -168,7 +176,8 @@ impl Simulation {
         let [Some(shape_a), Some(shape_b)] = [a, b].map(|i| plan.bodies()[i].collider.as_deref()) else {
             return Ok(());
         };
-        if [a, b].iter().all(|&i| self.places[i].is_none() || self.is_held(i)) {
+        let stands = |i: usize| if self.places[i].is_some() { self.is_held(i) } else { !self.body(i).is_moved(now) };
+        if stands(a) && stands(b) {
             return Ok(());
         }
         let until = window_a.to.min(window_b.to).min(self.end) - now;
@@ -176,7 +185,7 @@ impl Simulation {
             return Ok(());
         }
         let eps = self.eps(a, b);
-        let leaving = self.leaving(a, b, eps);
+        let leaving = self.leaving(a, b, now, eps);
         let (mut from, mut iterations) = (0.0, 0);
         for _ in 0..GRAZES {
             let found = {
@@ -224,15 +233,26 @@ impl Simulation {
     /// A time [s] in which bodies that were let go at this instant come apart by some ε: by the speed with which
     /// they open, or by what their loads do. No point moves farther meanwhile than the points of a contact may
     /// lie apart. Of other bodies it is 0.
-    fn leaving(&self, a: usize, b: usize, eps: f64) -> f64 {
+    fn leaving(&self, a: usize, b: usize, now: f64, eps: f64) -> f64 {
         let Some((_, opening)) = self.released.iter().find(|(pair, _)| *pair == [a, b]) else { return 0.0 };
         let (mut acceleration, mut speed) = (Vector3::zeros(), 0.0);
         for (body, sign) in [(a, -1.0), (b, 1.0)] {
-            let Some((lane, member)) = self.places[body] else { continue };
+            let unit = self.unit(body);
+            let Some((lane, member)) = self.places[unit] else {
+                if self.body(body).motion.is_some() {
+                    let motion = self.body(body).motion_at(Time::new(now));
+                    let other = self.motion_at(if body == a { b } else { a }, Time::new(now)).position;
+                    let (w, arm) = (motion.angular_velocity, other - motion.position);
+                    let own = self.unmoved_acceleration(body, &motion).linear;
+                    acceleration += sign * (own + w.cross(&w.cross(&arm)));
+                    speed += motion.velocity_at(&other).norm();
+                }
+                continue;
+            };
             let motion = self.lanes[lane].motions[member];
             let moment = self.moment(lane, self.lanes[lane].flight.front());
             acceleration += sign / motion.mass * self.load_on(lane, &motion, moment).force;
-            speed += motion.velocity.norm() + motion.angular_velocity.norm() * self.plan.bodies()[body].radius;
+            speed += motion.velocity.norm() + motion.angular_velocity.norm() * self.body(unit).radius;
         }
         let by_speed = if *opening > 0.0 { LEAVES * eps / opening } else { f64::INFINITY };
         let pull = acceleration.norm();
@@ -258,7 +278,7 @@ impl Simulation {
     fn path(&self, body: usize, now: f64) -> Path<'_> {
         let planned = &self.plan.bodies()[body];
         let center = planned.properties.center_of_mass;
-        let Some((lane, member)) = self.places[body] else { return Path::resting(&planned.start, center) };
+        let Some((lane, member)) = self.places[body] else { return self.unmoved_path(body, now) };
         let lane = &self.lanes[lane];
         let segment = lane.flight.segment();
         Path::new(segment, &lane.charts, &lane.motions, member, now - segment.start, center)
@@ -266,7 +286,7 @@ impl Simulation {
 
     /// The motion of a body at an instant within its open step.
     pub(super) fn motion_at(&self, body: usize, time: Time) -> BodyMotion {
-        let Some((lane, member)) = self.places[body] else { return self.plan.bodies()[body].start };
+        let Some((lane, member)) = self.places[body] else { return self.body(body).motion_at(time) };
         let lane = &self.lanes[lane];
         let mut motions = lane.motions.clone();
         if lane.pending.is_some() {
@@ -278,13 +298,14 @@ impl Simulation {
     }
 
     /// How many flights the body has begun.
-    fn flight_number(&self, body: usize) -> u64 {
+    pub(super) fn flight_number(&self, body: usize) -> u64 {
         self.places[body].map_or(0, |(lane, _)| self.lanes[lane].number)
     }
 
     /// Whether a body is held where it is.
     pub(super) fn is_held(&self, body: usize) -> bool {
-        self.places[body].is_some_and(|(lane, _)| self.lanes[lane].held.contains(&body))
+        let unit = self.unit(body);
+        self.places[unit].is_some_and(|(lane, _)| self.lanes[lane].held.contains(&unit))
     }
 
     /// The gap asked for, as this pass takes it [m].
@@ -298,7 +319,7 @@ impl Simulation {
     }
 
     pub(super) fn failure_of(&self, bodies: &[usize], time: f64, kind: Failure) -> SimulationError {
-        let bodies = bodies.iter().map(|&i| self.plan.bodies()[i].name.clone()).collect();
+        let bodies = bodies.iter().map(|&i| self.body(i).name.clone()).collect();
         SimulationError { time, bodies, kind, trajectory: None }
     }
 }

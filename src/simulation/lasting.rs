@@ -13,6 +13,7 @@ use super::{Failure, Simulation, SimulationError};
 use crate::contact::cluster::{ClusterBody, ClusterError, Contact};
 use crate::contact::rest::{Acceleration, Hold, Rest, Support, align, rest_sliding};
 use crate::effect::AnyEffect;
+use crate::freedom::riding::{follow, gather};
 use crate::math::sum::Time;
 use crate::math::{Vector3, quaternion};
 use crate::state::{BodyMotion, Load, Moment};
@@ -33,8 +34,9 @@ pub(super) struct Together {
     pub(super) pairs: Vec<[usize; 2]>,
     /// Which contacts go on sliding, however slowly: their pair, point [m] and direction.
     pub(super) sliding: Vec<([usize; 2], Vector3, Vector3)>,
-    /// Place of its heat among all.
+    /// Place of its heat among all, and of the work that bodies on prescribed motions do in it.
     pub(super) heat: Option<usize>,
+    pub(super) work: Option<usize>,
 }
 
 /// A part of a cluster that stays together.
@@ -86,7 +88,7 @@ impl Simulation {
             }
             self.still_contacts(cluster, &places, &held, &kept, scales, time);
             let still = |&place: &usize| {
-                let (motion, radius) = (&cluster.motions[place], self.plan.bodies()[cluster.bodies[place]].radius);
+                let (motion, radius) = (&cluster.motions[place], self.body(cluster.bodies[place]).radius);
                 let acceleration = &held.rest.accelerations[place];
                 motion.velocity.norm() + motion.angular_velocity.norm() * radius <= scales.small
                     && acceleration.linear.norm() + acceleration.angular.norm() * radius <= EQUILIBRIUM * scales.pull
@@ -101,7 +103,11 @@ impl Simulation {
                     }
                 };
                 let slides = contacts.iter().map(way).collect();
-                let rests = steady && places.iter().all(still);
+                let stands = |&i: &usize| {
+                    let bodies = [cluster.contacts[i].a, cluster.contacts[i].b].map(|k| cluster.bodies[k]);
+                    !bodies.iter().any(|&body| self.body(body).is_moved(time.value))
+                };
+                let rests = steady && places.iter().all(still) && contacts.iter().all(stands);
                 parts.push(Part { places, contacts, slides, rests });
             }
         }
@@ -226,7 +232,8 @@ impl Simulation {
                     cluster_body,
                     &self.load_on(lane, &cluster_body.motion, self.moment(lane, time.value)),
                 ),
-                _ => Acceleration::zero(),
+                Some(_) => Acceleration::zero(),
+                None => self.unmoved_acceleration(body, &cluster_body.motion),
             });
         }
         let rest = rest_sliding(&bodies, &free, &supports, slides).map_err(|error| match error {
@@ -248,35 +255,37 @@ impl Simulation {
     /// The load on the moving member of a lane that moves so.
     pub(super) fn load_on(&self, lane: usize, motion: &BodyMotion, at: Moment) -> Load {
         let lane = &self.lanes[lane];
-        let spec = &self.plan.groups()[lane.group];
-        let moving = spec.members.iter().position(|&i| !self.plan.bodies()[i].fixed).unwrap_or(0);
+        let spec = &lane.spec;
+        let moving = spec.members.iter().position(|&i| !self.body(i).fixed).unwrap_or(0);
         let mut motions = lane.motions.clone();
         motions[moving] = *motion;
-        let mut load = Load::zero();
+        follow(&lane.charts, &mut motions);
+        let mut total = vec![Load::zero(); motions.len()];
         let off = lane.loads_off(spec);
         for binding in spec.bindings.iter().filter(|binding| !off.contains(&binding.effect_index)) {
             let seen = binding.seen(&motions);
             let mut loads = vec![Load::zero(); seen.len()];
             binding.effect.as_effect().add_to(at, &seen, &mut loads);
-            for (_, own) in binding.members.iter().zip(&loads).filter(|(member, _)| **member == moving) {
-                load.force += own.force;
-                load.torque += own.torque;
+            for (&member, own) in binding.members.iter().zip(&loads) {
+                total[member].force += own.force;
+                total[member].torque += own.torque;
             }
         }
-        load
+        gather(&lane.charts, &motions, &mut total);
+        total[moving]
     }
 
     /// The moment `t` [s] of a lane, behind the last switch.
     pub(super) fn moment(&self, lane: usize, t: f64) -> Moment {
         let (_, since) = self.lanes[lane].flight.clock();
-        let switches = &self.plan.groups()[self.lanes[lane].group].switches;
+        let switches = &self.lanes[lane].spec.switches;
         Moment { time: t, since: switches.iter().copied().filter(|&s| s <= t).fold(since, f64::max) }
     }
 
     /// Whether the loads of a body at rest stay what they are between switches.
     fn is_steady(&self, body: usize) -> bool {
         let Some((lane, _)) = self.places[body] else { return true };
-        self.plan.groups()[self.lanes[lane].group].bindings.iter().all(|binding| match &*binding.effect {
+        self.lanes[lane].spec.bindings.iter().all(|binding| match &*binding.effect {
             AnyEffect::UniformGravity(_) | AnyEffect::Drag(_) | AnyEffect::PointGravity(_) | AnyEffect::Thruster(_) => {
                 true
             }
@@ -288,7 +297,7 @@ impl Simulation {
     /// The name of a load on the body that the state turns on and off.
     fn switched_load(&self, body: usize) -> Option<String> {
         let (lane, _) = self.places[body]?;
-        self.plan.groups()[self.lanes[lane].group].toggles.first().map(|toggle| toggle.name.clone())
+        self.lanes[lane].spec.toggles.first().map(|toggle| toggle.name.clone())
     }
 
     /// The named end of a run at a contact that this version cannot follow.
@@ -299,6 +308,16 @@ impl Simulation {
 }
 
 impl Held {
+    /// Power that bodies on prescribed motions bring in through the contacts [W].
+    pub(super) fn drive(&self, motions: &[BodyMotion], is_driver: impl Fn(usize) -> bool) -> f64 {
+        let power = |(contact, force): (&Contact, &Vector3)| {
+            let of = |k: usize, sign: f64| sign * force.dot(&motions[k].velocity_at(&contact.point));
+            let ends = [(contact.a, 1.0), (contact.b, -1.0)].into_iter();
+            ends.filter(|(k, _)| is_driver(*k)).map(|(k, sign)| of(k, sign)).sum::<f64>()
+        };
+        self.contacts.iter().zip(&self.rest.forces).map(power).sum()
+    }
+
     /// Power of friction turned into heat [W].
     pub(super) fn heat(&self) -> f64 {
         -self.rest.forces.iter().zip(&self.slips).map(|(f, u)| f.dot(u)).sum::<f64>()

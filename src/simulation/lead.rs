@@ -13,12 +13,12 @@
 use super::answer::ContactScales;
 use super::cluster::Cluster;
 use super::lasting::{Held, Part, Together, across, shift_by, tangents};
+use super::step::{End, Kind, Numbers, Passed, Slips, Step};
 use super::{Failure, Simulation, SimulationError};
 use crate::contact::anchor::Anchor;
 use crate::contact::cluster::Contact;
 use crate::contact::collision::{Law, collide};
 use crate::contact::rest::{Hold, align};
-use crate::freedom::Chart;
 use crate::integrator::{Control, FlightError, Front, Segment};
 use crate::math::Vector3;
 use crate::math::sum::Time;
@@ -50,16 +50,16 @@ impl Simulation {
         scales: &ContactScales,
         time: Time,
     ) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
         let mut led = Vec::new();
         for &place in &part.places {
             let body = cluster.bodies[place];
             let Some((lane, member)) = self.places[body] else { continue };
-            let spec = &plan.groups()[self.lanes[lane].group];
-            if spec.members.iter().filter(|&&i| !plan.bodies()[i].fixed).count() > 1 {
+            let flown = &self.lanes[lane];
+            let shares = flown.spec.members.iter().filter(|&&i| !self.body(i).fixed).count() > 1;
+            if shares && flown.compound.is_none() {
                 let why = format!(
                     "{} shares its flight with other bodies, to which an effect joins it",
-                    plan.bodies()[body].name
+                    self.body(body).name
                 );
                 return Err(self.lasting(cluster, &cluster.contacts[part.contacts[0]], time, &why));
             }
@@ -122,11 +122,12 @@ impl Simulation {
             lane.flight.resume(&Front { time: front, since, y: end.y1.clone(), rest }, segment, counts);
             lane.pending = Some(f64::INFINITY);
         }
-        let heat = (step.heat != 0.0).then_some(self.heat.len());
-        if heat.is_some() {
-            let (from, to) = (time.value, front.value);
-            self.heat.push(Heat { from, to, joules: step.heat, power: step.power });
-        }
+        let [heat, work] = [(&mut self.heat, &step.heat), (&mut self.work, &step.work)].map(|(list, passed)| {
+            let place = (passed.joules != 0.0).then_some(list.len());
+            let Passed { joules, power } = *passed;
+            list.extend(place.map(|_| Heat { from: time.value, to: front.value, joules, power }));
+            place
+        });
         let pairs = cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i)));
         let pairs = pairs.map(|t| t.bodies).collect();
         let bodies: Vec<usize> = part.places.iter().map(|&place| cluster.bodies[place]).collect();
@@ -140,7 +141,7 @@ impl Simulation {
                 self.lanes[lane].led = Some(slot);
             }
         }
-        self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat });
+        self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat, work });
         self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
         Ok(())
     }
@@ -155,9 +156,11 @@ impl Simulation {
         scales: &ContactScales,
         time: Time,
     ) -> (f64, f64, f64) {
-        let switches = led.iter().flat_map(|n| &self.plan.groups()[self.lanes[n.lane].group].switches);
-        let next = switches.copied().filter(|&s| s > time.value).fold(self.end, f64::min);
-        let fastest = part.places.iter().map(|&p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
+        let switches = led.iter().flat_map(|n| &self.lanes[n.lane].spec.switches);
+        let jumps = cluster.bodies.iter().map(|&body| self.next_jump(body, time.value));
+        let next = switches.copied().filter(|&s| s > time.value).chain(jumps).fold(self.end, f64::min);
+        let touched = part.contacts.iter().flat_map(|&i| [cluster.contacts[i].a, cluster.contacts[i].b]);
+        let fastest = touched.map(|p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
         let by_load = if scales.pull > 0.0 { (scales.size / scales.pull).sqrt() } else { f64::INFINITY };
         let by_turning = if fastest > 0.0 { 1.0 / fastest } else { f64::INFINITY };
         let own = self.grain.step * STEP * by_load.min(by_turning);
@@ -206,15 +209,15 @@ impl Simulation {
         h: f64,
         kind: Kind,
     ) -> Result<Step, SimulationError> {
-        let mut power = [0.0; 2];
-        let (mut heat, mut first) = (0.0, Vec::new());
+        let is_driver = |k: usize| self.body(cluster.bodies[k]).motion.is_some();
+        let (mut heat, mut work, mut first) = (Passed::default(), Passed::default(), Vec::new());
         let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
         if kind == Kind::Implicit {
             let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
             let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, time)?;
-            (first, power[0]) = (rates, held.heat());
-            let (motions, lost) = self.implicit(cluster, part, time, h)?;
-            heat = lost;
+            (first, heat.power[0], work.power[0]) = (rates, held.heat(), held.drive(&cluster.motions, is_driver));
+            let motions;
+            (motions, heat.joules, work.joules) = self.implicit(cluster, part, time, h)?;
             for (n, y) in led.iter().zip(&mut y1) {
                 n.chart.encode(&motions[n.place].state(), y);
             }
@@ -229,27 +232,29 @@ impl Simulation {
                         None => n.y.clone(),
                     })
                     .collect();
-                let motions = moved(cluster, led, &y);
+                let motions = self.stage(cluster, led, &y, (time, at * h));
                 let (held, rates) = self.rates(cluster, part, led, &motions, &y, scales, time + at * h)?;
-                heat += weight / 6.0 * h * held.heat();
+                let power = [held.heat(), held.drive(&motions, is_driver)];
+                heat.joules += weight / 6.0 * h * power[0];
+                work.joules += weight / 6.0 * h * power[1];
                 for (y, k) in y1.iter_mut().zip(&rates) {
                     y.iter_mut().zip(k).for_each(|(y, k)| *y += weight / 6.0 * h * k);
                 }
                 if first.is_empty() {
                     first.clone_from(&rates);
-                    power[0] = held.heat();
+                    [heat.power[0], work.power[0]] = power;
                 }
                 k = rates;
             }
         }
 
         // gaps as they were, no speed along the normals of what carries, none at all where it sticks
-        let mut motions = moved(cluster, led, &y1);
+        let mut motions = self.stage(cluster, led, &y1, (time, h));
         if motions.iter().any(|motion| !motion.is_finite()) {
             return Err(self.failure_of(&cluster.bodies, time.value, Failure::Flight(FlightError::NotFinite)));
         }
         let (held, _) = self.rates(cluster, part, led, &motions, &y1, scales, time + h)?;
-        power[1] = held.heat();
+        [heat.power[1], work.power[1]] = [held.heat(), held.drive(&motions, is_driver)];
         let (mut rows, mut lifts, mut stops, mut carrying) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (i, &c) in part.contacts.iter().enumerate() {
             let (contact, slip) = (&held.contacts[i], &held.slips[i]);
@@ -280,13 +285,13 @@ impl Simulation {
             motion.velocity += change.linear;
             motion.angular_velocity += change.angular;
         }
-        heat += before - led.iter().map(|n| motions[n.place].kinetic_energy()).sum::<f64>();
+        heat.joules += before - led.iter().map(|n| motions[n.place].kinetic_energy()).sum::<f64>();
         for (n, y) in led.iter().zip(&mut y1) {
             n.chart.encode(&motions[n.place].state(), y);
         }
         let last = self.rates_under(led, &motions, &y1, &held, time + h);
         let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
-        Ok(Step { h, kind, ends, motions, heat, power, carrying })
+        Ok(Step { h, kind, ends, motions, heat, work, carrying })
     }
 
     /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
@@ -301,14 +306,14 @@ impl Simulation {
         part: &Part,
         time: Time,
         h: f64,
-    ) -> Result<(Vec<BodyMotion>, f64), SimulationError> {
+    ) -> Result<(Vec<BodyMotion>, f64, f64), SimulationError> {
         // half way, with the momenta of the start, and then with what the loads add to them
         let moves = |body: usize| self.places[body].filter(|_| !self.is_stuck(body));
         let inverse = |body: usize, motion: &BodyMotion, l: &Vector3| {
             let own = motion.rotation.tr_mul(l);
-            motion.rotation * (self.plan.bodies()[body].properties.inv_inertia() * own)
+            motion.rotation * (self.body(body).properties.inv_inertia() * own)
         };
-        let mut half = cluster.motions.clone();
+        let mut half = self.stage(cluster, &[], &[], (time, 0.5 * h));
         for (&body, motion) in cluster.bodies.iter().zip(&mut half).filter(|(body, _)| moves(**body).is_some()) {
             let l = motion.angular_momentum();
             let (v, w) = (motion.velocity, motion.angular_velocity);
@@ -349,7 +354,7 @@ impl Simulation {
         }
         let slips = contacts.iter().map(|contact| contact.slip(&half) + contact.slip(&ends));
         let heat = -slips.zip(&after.impulses).map(|(u, j)| 0.5 * j.dot(&u)).sum::<f64>();
-        Ok((motions, heat))
+        Ok((motions, heat, after.work))
     }
 
     /// How the slips of a step compare with what friction changes in it.
@@ -460,7 +465,7 @@ impl Simulation {
                 segment.at_offset(s, &mut y);
                 y
             });
-            moved(cluster, led, &y.collect::<Vec<_>>())
+            self.stage(cluster, led, &y.collect::<Vec<_>>(), (time, s))
         };
         let mut first = step.h;
 
@@ -486,11 +491,12 @@ impl Simulation {
         // touches: points that come below the surface, by more than those that carry seem to within the step
         for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
             let pair = touching.bodies;
-            let [Some(a), Some(b)] = pair.map(|i| cluster.place(i)) else { continue };
+            let [Some(a), Some(b)] = pair.map(|i| cluster.place(self.unit(i))) else { continue };
             let carrying = step.carrying.iter().filter(|i| touching.contacts.contains(i));
             let anchors: Vec<_> = carrying.filter_map(|&i| Some((i, cluster.anchors[i]?))).collect();
             let below = |motions: &[BodyMotion]| {
-                let poses = [(pair[0], a), (pair[1], b)].map(|(i, place)| self.pose_of(i, &motions[place]));
+                let poses = [(pair[0], a), (pair[1], b)]
+                    .map(|(i, place)| self.pose_of(i, &self.part_motion(i, &motions[place])));
                 let gap = self.closest_at(pair, poses, time.value)?.signed_distance;
                 let sunk = |(i, anchor): &(usize, Anchor)| {
                     let contact = &cluster.contacts[*i];
@@ -520,62 +526,3 @@ impl Simulation {
 
 /// How far below the surface a point must come to count as touching, in ε [-].
 const BELOW: f64 = 2.0;
-
-/// How a step is taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    /// By the method of Runge and Kutta.
-    Explicit,
-    /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end,
-    /// whose direction is stiff where the slip is slow.
-    Implicit,
-}
-
-/// How fast the contacts of a part slide, by what friction changes in a step: a direction that it can turn
-/// round is stiff.
-enum Slips {
-    /// Faster, or about to stop.
-    Fast,
-    /// Slower, and ever more so; in a step of this length [s] it is not.
-    Dying(f64),
-    /// Slower, and about to be faster.
-    Beginning,
-}
-
-/// A body that is led, in the numbers of its flight.
-struct Numbers {
-    place: usize,
-    lane: usize,
-    chart: Chart,
-    y: Vec<f64>,
-}
-
-/// The end of a step of one body, with the rates at both ends.
-struct End {
-    k0: Vec<f64>,
-    y1: Vec<f64>,
-    k1: Vec<f64>,
-}
-
-/// A step of a part.
-struct Step {
-    h: f64,
-    kind: Kind,
-    ends: Vec<End>,
-    /// Motions of the cluster's bodies at its end.
-    motions: Vec<BodyMotion>,
-    /// Heat of friction [J], and its power at both ends [W].
-    heat: f64,
-    power: [f64; 2],
-    /// The contacts that carry at its end, as places in the cluster's list.
-    carrying: Vec<usize>,
-}
-
-/// The motions of a cluster's bodies, those that are led by their numbers.
-fn moved(cluster: &Cluster, led: &[Numbers], y: &[Vec<f64>]) -> Vec<BodyMotion> {
-    let mut motions = cluster.motions.clone();
-    for (n, y) in led.iter().zip(y) {
-        n.chart.decode(y, &mut motions[n.place]);
-    }
-    motions
-}

@@ -13,8 +13,9 @@ use std::sync::Arc;
 use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
 use crate::freedom::Chart;
-use crate::integrator::{Control, Counts, Flight, FlightError};
-use crate::plan::Plan;
+use crate::integrator::{Control, Counts, Flight, FlightError, Method};
+use crate::math::sum::Time;
+use crate::plan::{Compound, FlightGroup, Plan};
 use crate::scene::Span;
 use crate::state::{BodyMotion, BodyState};
 use crate::trajectory::{Event, Heat, Phase, Trajectory};
@@ -29,6 +30,8 @@ mod events;
 mod lasting;
 mod lead;
 mod led;
+mod merge;
+mod moved;
 mod near;
 mod observe;
 mod path;
@@ -36,6 +39,7 @@ mod predict;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
+mod step;
 mod switching;
 mod turn;
 
@@ -113,7 +117,12 @@ pub enum RunError {
 /// One flight group on its way.
 #[derive(Debug)]
 struct Lane {
+    /// The group of the plan; of a compound's lane, that of its first part.
     group: usize,
+    /// What flies.
+    spec: Arc<FlightGroup>,
+    /// The compound that flies, among all.
+    compound: Option<usize>,
     flight: Box<dyn Flight>,
     /// How many flights it has begun.
     number: u64,
@@ -157,14 +166,20 @@ pub struct Simulation {
     controls: Vec<Control>,
     time: f64,
     end: f64,
+    /// One for each group of the plan, then one for each compound; those of its parts stand still.
     lanes: Vec<Lane>,
-    /// Where each body flies: lane, and place in it; none of fixed bodies.
+    /// Where each body flies: lane, and place in it; none of fixed bodies. Compounds stand behind the scene's bodies.
     places: Vec<Option<(usize, usize)>>,
+    compounds: Vec<Compound>,
+    /// What each body flies as: itself, or the compound that it is part of.
+    units: Vec<usize>,
+    /// Compounds that were made at the instant under consideration.
+    joined: Vec<usize>,
     near: Near,
     /// Bodies that stay in contact and move, part by part.
     together: Vec<Option<Together>>,
     together_number: u64,
-    /// Bodies that have stuck to a fixed one, for good.
+    /// Units that have stuck to what is fixed, for good.
     stuck: Vec<usize>,
     /// Pairs that the laws of contact let go at the instant under consideration, and how fast they open [m/s].
     released: Vec<([usize; 2], f64)>,
@@ -172,30 +187,53 @@ pub struct Simulation {
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
+    /// Work that bodies on prescribed motions do on others.
+    work: Vec<Heat>,
     /// When a user's event ends the run [s], and which.
     ended: Option<(f64, String)>,
     iterations: u64,
+    /// Impacts in whose cluster a point took part by `ε_touch` only.
+    touch_impacts: u64,
     grain: Grain,
 }
 
-/// How finely a pass looks at contacts: passes that differ in it show what hangs on it.
+/// What a pass may do coarsely: passes that differ in it show what hangs on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grain {
-    /// ε, in that of the options [-].
+    /// ε of contacts, in that of the options [-].
     eps: f64,
     /// Steps of contacts that last, in their own [-].
     step: f64,
+    /// By how much the numbers at the start of what is integrated and meets nothing are off, as a part of each [-]: as
+    /// the roundings that all passes have in common, such as those of moments of inertia, a motion may magnify them.
+    nudge: f64,
 }
+
+/// What the numbers at the start may be off by in the coarser of two passes [-].
+const NUDGE: f64 = 4.0 * f64::EPSILON;
 
 impl Grain {
     /// What the options say.
-    const FINE: Self = Self { eps: 1.0, step: 1.0 };
+    const FINE: Self = Self { eps: 1.0, step: 1.0, nudge: 0.0 };
 
     /// So many times coarser.
     fn times(times: f64) -> Self {
-        Self { eps: times, step: times }
+        Self { eps: times, step: times, nudge: (times - 1.0) * NUDGE }
     }
 }
+
+/// Moves each number of a motion by up to a `part` of itself, in a pattern without a rhythm, so that nothing cancels.
+fn nudge(chart: &Chart, motion: &mut BodyMotion, part: f64) {
+    let mut y = vec![0.0; chart.dimension()];
+    chart.encode(&motion.state(), &mut y);
+    for (i, y) in y.iter_mut().enumerate() {
+        *y *= 1.0 + part * (2.0 * (i as f64 * GOLDEN).fract() - 1.0);
+    }
+    chart.decode(&y, motion);
+}
+
+/// The golden section, whose multiples spread evenly over a unit [-].
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl Plan {
     /// Starts the scene at time `t` [s], to be advanced by hand.
@@ -217,37 +255,24 @@ impl Plan {
             Arc::new(self.clone()),
             Span { start: t, end: f64::INFINITY },
             self.controls(&Control::Step(step)),
+            Grain::FINE,
         )
     }
 }
 
 impl Simulation {
-    fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>) -> Result<Self> {
+    fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>, grain: Grain) -> Result<Self> {
         let mut lanes = Vec::new();
         for (group, spec) in plan.groups().iter().enumerate() {
-            let motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
+            let charts = plan.charts(group, &[])?;
+            let mut motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
+            if grain.nudge > 0.0 && !spec.meets && spec.method != Method::Exact {
+                charts.iter().zip(&mut motions).for_each(|(chart, motion)| nudge(chart, motion, grain.nudge));
+            }
             let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
-            lanes.push(Lane {
-                group,
-                flight,
-                number: 0,
-                charts: plan.charts(group, &[])?,
-                pending: None,
-                held: Vec::new(),
-                led: None,
-                short: 0,
-                earlier: Counts::default(),
-                motions,
-                kink: None,
-                corrections: 0,
-                nodes: vec![span.start],
-                phase: group,
-                cursor: 0,
-                watchers: vec![observe::Watcher::default(); spec.watches.len()],
-                switched: plan.switched(spec, span.start)?,
-                ahead: None,
-                due: None,
-            });
+            let switched = plan.switched(spec, span.start)?;
+            let lane = Lane::new(group, spec.clone(), flight, charts, motions, span.start);
+            lanes.push(Lane { switched, phase: group, ..lane });
         }
         let mut places = vec![None; plan.bodies().len()];
         for (lane, spec) in plan.groups().iter().enumerate() {
@@ -257,12 +282,15 @@ impl Simulation {
         }
         let near = Near::default();
         Ok(Self {
+            units: (0..plan.bodies().len()).collect(),
             plan,
             controls,
             time: span.start,
             end: span.end,
             lanes,
             places,
+            compounds: Vec::new(),
+            joined: Vec::new(),
             near,
             together: Vec::new(),
             together_number: 0,
@@ -271,9 +299,11 @@ impl Simulation {
             bounces: Vec::new(),
             events: Vec::new(),
             heat: Vec::new(),
+            work: Vec::new(),
             ended: None,
             iterations: 0,
-            grain: Grain::FINE,
+            touch_impacts: 0,
+            grain,
         })
     }
 
@@ -330,15 +360,13 @@ impl Simulation {
     /// A name that no body has.
     pub fn motion(&self, name: &str) -> Result<BodyMotion> {
         let index = self.plan.scene().id(name)?.index();
-        for lane in &self.lanes {
-            let members = &self.plan.groups()[lane.group].members;
-            if let Some(place) = members.iter().position(|&i| i == index && !self.plan.bodies()[i].fixed) {
-                let mut motions = lane.motions.clone();
-                lane.flight.at(self.time, &mut motions);
-                return Ok(motions[place]);
-            }
-        }
-        Ok(self.plan.bodies()[index].start)
+        let Some((lane, place)) = self.places[index] else {
+            return Ok(self.plan.bodies()[index].motion_at(Time::new(self.time)));
+        };
+        let lane = &self.lanes[lane];
+        let mut motions = lane.motions.clone();
+        lane.flight.at(self.time, &mut motions);
+        Ok(motions[place])
     }
 
     /// What has been done so far.
@@ -353,13 +381,13 @@ impl Simulation {
 
     /// The lanes whose bodies meet nobody.
     fn lanes_alone(&self) -> Vec<usize> {
-        (0..self.lanes.len()).filter(|&lane| !self.plan.groups()[self.lanes[lane].group].meets).collect()
+        (0..self.lanes.len()).filter(|&lane| !self.lanes[lane].spec.meets).collect()
     }
 
     /// Takes the steps that nobody looks at at once: no samples, nothing to meet, and no switch on the way.
     fn advance_unseen(&mut self, index: usize, to: f64) -> Result<(), SimulationError> {
         let (plan, lane) = (&self.plan, &mut self.lanes[index]);
-        let spec = &plan.groups()[lane.group];
+        let spec = lane.spec.clone();
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
         if spec.meets
@@ -385,22 +413,22 @@ impl Simulation {
     fn take_step(&mut self, index: usize, record: &Option<&mut Trajectory>) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
-        let spec = &plan.groups()[lane.group];
+        let spec = lane.spec.clone();
         let front = lane.flight.front();
         let switch = spec.switches.iter().copied().find(|&s| s > front).unwrap_or(f64::INFINITY);
         // a step over a kink, or over the instant that turns a load, is taken back and again, at most so many times
         loop {
             let lane = &mut self.lanes[index];
             let begin = (plan.tolerance().is_some() && lane.corrections < turn::CORRECTIONS)
-                .then(|| lane.kinks_at_front(spec))
+                .then(|| lane.kinks_at_front(&spec))
                 .flatten();
-            let begun = lane.begin_switched(spec);
+            let begun = lane.begin_switched(&spec);
             let turn = lane.ahead.map_or(f64::INFINITY, |ahead| ahead.time);
             let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY)).min(turn);
             if let Err(error) = lane.flight.advance(limit) {
                 return Err(self.failure(index, front, error.into()));
             }
-            if begin.is_some_and(|begin| lane.found_kink(spec, &begin)) {
+            if begin.is_some_and(|begin| lane.found_kink(&spec, &begin)) {
                 continue;
             }
             if lane.kink.is_some_and(|kink| lane.flight.front() >= kink) {
@@ -425,14 +453,14 @@ impl Simulation {
     fn finish_step(&mut self, index: usize, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
         let Some(switch) = self.lanes[index].pending.take() else { return Ok(()) };
         self.observe(index)?;
-        let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
-        let spec = &plan.groups()[lane.group];
         let front = lane.flight.front();
         if let Some(run) = record.as_mut() {
             lane.nodes.push(front);
-            if run.looks_into(lane.cursor, front) {
-                let off = lane.loads_off(spec);
+            if lane.compound.is_some() {
+                self.record_parts(index, run);
+            } else if run.looks_into(lane.cursor, front) {
+                let off = lane.loads_off(&lane.spec);
                 lane.phase = run.phase_with(lane.phase, &off, lane.flight.segment().start);
                 let mut scratch = Vec::new();
                 run.record(lane.phase, lane.flight.segment(), &mut lane.cursor, &mut scratch);
@@ -449,9 +477,46 @@ impl Simulation {
     }
 
     fn failure(&self, index: usize, time: f64, kind: Failure) -> SimulationError {
-        let members = &self.plan.groups()[self.lanes[index].group].members;
-        let bodies = members.iter().map(|&i| self.plan.bodies()[i].name.clone()).collect();
-        SimulationError { time, bodies, kind, trajectory: None }
+        let members = self.lanes[index].spec.members.iter().copied();
+        let members: Vec<usize> = members.filter(|&i| i < self.plan.bodies().len()).collect();
+        self.failure_of(&members, time, kind)
+    }
+}
+
+impl Lane {
+    /// A group that stands at `t` [s] with these motions, at the beginning of its flight.
+    fn new(
+        group: usize,
+        spec: Arc<FlightGroup>,
+        flight: Box<dyn Flight>,
+        charts: Vec<Chart>,
+        motions: Vec<BodyMotion>,
+        t: f64,
+    ) -> Self {
+        let watchers = vec![observe::Watcher::default(); spec.watches.len()];
+        Self {
+            group,
+            spec,
+            compound: None,
+            flight,
+            number: 0,
+            charts,
+            pending: None,
+            held: Vec::new(),
+            led: None,
+            short: 0,
+            earlier: Counts::default(),
+            motions,
+            kink: None,
+            corrections: 0,
+            nodes: vec![t],
+            phase: 0,
+            cursor: 0,
+            watchers,
+            switched: Vec::new(),
+            ahead: None,
+            due: None,
+        }
     }
 }
 

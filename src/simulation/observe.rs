@@ -56,7 +56,7 @@ impl Simulation {
     pub(super) fn observe(&mut self, index: usize) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
-        let spec = &plan.groups()[lane.group];
+        let spec = lane.spec.clone();
         if spec.watches.is_empty() {
             return Ok(());
         }

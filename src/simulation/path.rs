@@ -11,8 +11,8 @@
 //! ½ w Σ |c_k| k!/(k−j−1)! s_max^(k−j−1)`, w being the interval's width: proved, and tight where the
 //! interval is short.
 
-use crate::freedom::{Chart, Form, Spin};
-use crate::impact::{Instant, MotionBounds, Moving};
+use crate::freedom::{Chart, Form, Riding, Spin};
+use crate::impact::{Instant, Motion, MotionBounds, Moving};
 use crate::integrator::exact::FreeBounds;
 use crate::integrator::{ClosedMotion, Curve, Segment};
 use crate::math::{Pose, Quaternion, Vector3, quaternion};
@@ -22,14 +22,19 @@ use crate::state::BodyMotion;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Path<'a> {
     kind: Kind<'a>,
-    /// From the shape's origin to the centre of mass, shape axes [m].
+    /// From the shape's origin to the point that moves, shape axes [m]: the centre of mass, of the body or of the
+    /// compound that it is part of.
     center: Vector3,
+    /// From the shape's axes to those that move, where they are others.
+    turn: Option<Quaternion>,
 }
 
 #[derive(Debug, Clone, Copy)]
 enum Kind<'a> {
     /// The body stays where it is.
     Resting { position: Vector3, orientation: Quaternion },
+    /// The body is moved with constant velocities.
+    Uniform(Motion),
     /// Polynomials of position, from `at`, and of the quaternion, from `at + 6`, which stands for the shape's axes
     /// after `turn`; `offset` from the piece's start [s].
     Polynomial { segment: &'a Segment, coefficients: &'a [f64], at: usize, turn: Quaternion, offset: f64 },
@@ -49,7 +54,13 @@ enum Kind<'a> {
 impl<'a> Path<'a> {
     /// A body that rests.
     pub(super) fn resting(motion: &BodyMotion, center: Vector3) -> Self {
-        Self { kind: Kind::Resting { position: motion.position, orientation: motion.orientation }, center }
+        let kind = Kind::Resting { position: motion.position, orientation: motion.orientation };
+        Self { kind, center, turn: None }
+    }
+
+    /// A body that is moved.
+    pub(super) fn uniform(motion: Motion) -> Self {
+        Self { kind: Kind::Uniform(motion), center: motion.center, turn: None }
     }
 
     /// Member `member` of a group with these charts, from `offset` [s] after the start of a piece.
@@ -61,6 +72,10 @@ impl<'a> Path<'a> {
         offset: f64,
         center: Vector3,
     ) -> Self {
+        if let Chart::Riding(Riding { pose }) = &charts[member] {
+            let center = center - pose.inverse_vector(&pose.position);
+            return Self { turn: Some(pose.orientation), ..Self::new(segment, charts, motions, 0, offset, center) };
+        }
         if matches!(charts[member], Chart::Fixed) || segment.dimension == 0 {
             return Self::resting(&motions[member], center);
         }
@@ -78,11 +93,11 @@ impl<'a> Path<'a> {
             }
             Curve::Closed(motion, lead) => Kind::Closed { motion, member, offset: lead + offset },
         };
-        Self { kind, center }
+        Self { kind, center, turn: None }
     }
 
     fn instant(&self, center: Vector3, q: &Quaternion, velocity: Vector3, angular_velocity: Vector3) -> Instant {
-        let orientation = quaternion::normalized(q);
+        let orientation = quaternion::normalized(&self.turn.map_or(*q, |turn| q * turn));
         let position = center - quaternion::rotate(&orientation, &self.center);
         Instant { pose: Pose { position, orientation }, center, velocity, angular_velocity }
     }
@@ -127,6 +142,7 @@ impl Moving for Path<'_> {
             Kind::Resting { position, orientation } => {
                 self.instant(position, &orientation, Vector3::zeros(), Vector3::zeros())
             }
+            Kind::Uniform(motion) => motion.at(t),
             Kind::Matrix { segment, at, chart, motion, offset, .. } => {
                 let mut motion = *motion;
                 let mut y = vec![0.0; segment.dimension];
@@ -153,6 +169,7 @@ impl Moving for Path<'_> {
     fn bounds(&self, from: f64, to: f64) -> MotionBounds {
         match self.kind {
             Kind::Resting { .. } => MotionBounds::uniform(0.0),
+            Kind::Uniform(motion) => motion.bounds(from, to),
             Kind::Matrix { segment, coefficients: c, at, offset, .. }
             | Kind::Polynomial { segment, coefficients: c, at, offset, .. } => {
                 let (n, h) = (segment.dimension, segment.length);

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::clock::thread_seconds;
 use super::run::Pace;
 use crate::effect::AnyEffect;
 use crate::integrator::{Control, Method};
@@ -28,23 +29,31 @@ const PROBE_LEAST: (u32, f64) = (16, 1.0 / 64.0);
 
 impl Plan {
     /// What a run over a span takes by these costs, if its first try keeps the tolerance. Where the steps follow the
-    /// error, a few are taken to see how long they are. None where a function of the user has its own price,
-    /// where contacts cannot be foreseen, and where a step breaks off.
+    /// error, a few are taken to see how long they are; where a function of the user has its own price, to see what they
+    /// take. None where contacts cannot be foreseen, and where a step breaks off.
     pub fn predict(&self, span: impl Into<Span>, costs: &CostTable) -> Option<Prediction> {
         let span = span.into();
         let options = self.options();
         let mut prediction = Prediction { steps: 0.0, run: 0.0, estimate: 0.0 };
         for (index, group) in self.groups().iter().enumerate() {
-            let calls_user = |binding: &Binding| matches!(binding.effect.as_ref(), AnyEffect::User(_));
-            if group.meets || group.bindings.iter().any(calls_user) {
+            if group.meets {
                 return None;
             }
             if group.method == Method::Exact {
                 continue;
             }
-            let first = match (options.step, self.tolerance()) {
-                (Some(step), _) => (span.end - span.start) / step,
-                (None, tolerance) => self.first_steps(index, span, tolerance?)?,
+            let control = match (options.step, self.tolerance()) {
+                (Some(step), _) => Control::Step(step),
+                (None, tolerance) => Pace::first(self, span, tolerance?).control,
+            };
+            let calls_user = |binding: &Binding| matches!(binding.effect.as_ref(), AnyEffect::User(_));
+            let calls_user = group.bindings.iter().any(calls_user);
+            let (first, timed) = match control {
+                Control::Step(step) if !calls_user => ((span.end - span.start) / step, None),
+                control => {
+                    let (steps, seconds) = self.probe(index, span, &control)?;
+                    (steps, calls_user.then_some(seconds))
+                }
             };
 
             // with a step the estimate takes half of them; to a tolerance the result takes four times as many as
@@ -55,8 +64,15 @@ impl Plan {
                 (true, None) => (4.0, 3.0),
             };
             let kind = BodyKind::of(group, self.bodies());
-            let moving = group.members.iter().filter(|&&i| !self.bodies()[i].fixed).count();
-            let step = costs.step(group.method, kind, options.record == Record::Dense)? * moving as f64;
+            let moving = group.members.iter().filter(|&&i| !self.bodies()[i].fixed).count() as f64;
+            let priced = |kept| Some(costs.step(group.method, kind, kept)? * moving * self.effort(group.method));
+            let kept = options.record == Record::Dense;
+            let step = match timed {
+                // the motion of the steps that were timed was not kept
+                Some(seconds) if kept => seconds + (priced(true)? - priced(false)?).max(0.0),
+                Some(seconds) => seconds,
+                None => priced(kept)?,
+            };
             prediction.steps += run * first;
             prediction.run += run * first * step;
             prediction.estimate += estimate * first * step;
@@ -64,15 +80,11 @@ impl Plan {
         Some(prediction)
     }
 
-    /// Steps that the first try to a tolerance takes in a group.
-    fn first_steps(&self, group: usize, span: Span, tolerance: f64) -> Option<f64> {
+    /// Steps that the first try takes in a group, and the time of one [s], by taking some.
+    fn probe(&self, group: usize, span: Span, control: &Control) -> Option<(f64, f64)> {
         let length = span.end - span.start;
-        let control = Pace::first(self, span, tolerance).control;
-        if let Control::Step(step) = control {
-            return Some(length / step);
-        }
-        let mut flight = self.flight(group, span.start, &control).ok()?;
-        let mut steps = 0;
+        let mut flight = self.flight(group, span.start, control).ok()?;
+        let (mut steps, began) = (0, thread_seconds());
         while flight.front() < span.end && steps < PROBE {
             flight.advance(span.end).ok()?;
             steps += 1;
@@ -80,7 +92,8 @@ impl Plan {
                 break;
             }
         }
-        Some(f64::from(steps) * length / (flight.front() - span.start))
+        let taken = thread_seconds() - began;
+        Some((f64::from(steps) * length / (flight.front() - span.start), taken / f64::from(steps)))
     }
 
     /// [`explain`](Self::explain), and what a run over the span of the options is predicted to take by these costs.
@@ -101,7 +114,7 @@ impl Plan {
             None if self.groups().iter().any(|group| group.meets) => {
                 write!(text, "\n  predicted  nothing: contacts are not foreseen")
             }
-            None => write!(text, "\n  predicted  nothing: a function of the user has its own price"),
+            None => write!(text, "\n  predicted  nothing: a step breaks off"),
         };
         text
     }
@@ -109,8 +122,13 @@ impl Plan {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicU32, Ordering};
+
     use super::*;
     use crate::catalogue;
+    use crate::effect::UserEffect;
+    use crate::math::Vector3;
     use crate::scene::RunOptions;
 
     #[test]
@@ -119,6 +137,35 @@ mod tests {
         let plan = catalogue::scene("bouncing_die").unwrap().unwrap().compile(&options).unwrap();
         assert_eq!(plan.predict(0.0..1.0, &CostTable::shipped()), None);
         assert!(plan.explain_priced(&CostTable::shipped()).ends_with("predicted  nothing: contacts are not foreseen"));
+    }
+
+    #[test]
+    fn steps_that_call_the_user_are_taken_to_see_what_they_take() {
+        let mut scene = catalogue::scene("heavy_top").unwrap().unwrap();
+        let span = scene.run.t_span.unwrap();
+        let called = Arc::new(AtomicU32::new(0));
+        let counter = called.clone();
+        scene.add_effect(UserEffect::new(move |_, bodies| {
+            counter.fetch_add(1, Ordering::Relaxed);
+            Ok(bodies.iter().map(|body| (Vector3::zeros(), -1e-4 * body.angular_velocity)).collect())
+        }));
+        let options = [
+            RunOptions { t_span: Some(span), ..RunOptions::tolerance(1e-8) },
+            RunOptions { t_span: Some(span), ..RunOptions::method(Method::Rk4).step((span[1] - span[0]) / 1000.0) },
+        ];
+        for options in options {
+            let plan = scene.compile(&options).unwrap();
+            called.store(0, Ordering::Relaxed);
+            let predicted = plan.predict(span, &CostTable::shipped()).unwrap();
+            assert!(called.load(Ordering::Relaxed) >= 16, "{options:?}: not called");
+            assert!(predicted.run > 0.0 && predicted.estimate > 0.0, "{predicted:?}");
+            let ratio = predicted.steps / plan.run(span).unwrap().report().counts.steps as f64;
+            assert!((0.5..2.0).contains(&ratio), "{options:?}: {predicted:?}");
+        }
+
+        scene.add_effect(UserEffect::new(|_, _| Err("no".into())));
+        let plan = scene.compile(&RunOptions { t_span: Some(span), ..RunOptions::tolerance(1e-8) }).unwrap();
+        assert!(plan.explain_priced(&CostTable::shipped()).ends_with("predicted  nothing: a step breaks off"));
     }
 
     #[test]

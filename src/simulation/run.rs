@@ -49,11 +49,23 @@ impl Scene {
         let t_span = (span.start < span.end && (span.end - span.start).is_finite()).then_some([span.start, span.end]);
         let plan = self.compile(&RunOptions { t_span, ..options.clone() })?;
         let compile = thread_seconds() - began;
-        let mut result = plan.run_observed(span, observer);
+        let mut result = run_shared(&Arc::new(plan), span, observer);
         if let Ok(run) = &mut result {
             run.report.seconds.compile = compile;
         }
         result
+    }
+}
+
+/// Runs a plan that its trajectory will hold.
+fn run_shared(plan: &Arc<Plan>, span: Span, observer: Observer<'_>) -> Result<Trajectory, RunError> {
+    let times = plan.options().times(span)?;
+    match (plan.options().step, plan.tolerance()) {
+        (Some(step), _) => plan.run_with_step(span, &times, step, observer),
+        (None, tolerance) => {
+            let tolerance = tolerance.unwrap_or(crate::plan::DEFAULT_TOLERANCE);
+            plan.run_to_tolerance(span, &times, tolerance, observer)
+        }
     }
 }
 
@@ -71,26 +83,18 @@ impl Plan {
     /// # Errors
     /// As [`Scene::run_observed`].
     pub fn run_observed(&self, span: impl Into<Span>, observer: Observer<'_>) -> Result<Trajectory, RunError> {
-        let span = span.into();
-        let times = self.options().times(span)?;
-        match (self.options().step, self.tolerance()) {
-            (Some(step), _) => self.run_with_step(span, &times, step, observer),
-            (None, tolerance) => {
-                let tolerance = tolerance.unwrap_or(crate::plan::DEFAULT_TOLERANCE);
-                self.run_to_tolerance(span, &times, tolerance, observer)
-            }
-        }
+        run_shared(&Arc::new(self.clone()), span.into(), observer)
     }
 
     /// One run with the step asked for, and one with twice the step to estimate its error.
     fn run_with_step(
-        &self,
+        self: &Arc<Self>,
         span: Span,
         times: &[f64],
         step: f64,
         observer: Observer<'_>,
     ) -> Result<Trajectory, RunError> {
-        let course = Course { plan: Arc::new(self.clone()), span, times };
+        let course = Course { plan: self.clone(), span, times };
         let began = thread_seconds();
         let mut run = course.pass(self.controls(&Control::Step(step)), Grain::FINE, 1, observer).map_err(Box::new)?.0;
         run.report.seconds.run = thread_seconds() - began;
@@ -111,7 +115,7 @@ impl Plan {
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
-                let gain = if has_impacts(&run) { EVENT_GAIN } else { full_gain(self.method()) };
+                let gain = if has_impacts(&run) { EVENT_GAIN } else { full_gain(self.order()) };
                 let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), None);
                 run.report.error_estimate = Some(comparison.within_horizon);
                 run.report.estimated_by = "against a second run with twice the step".into();
@@ -134,7 +138,7 @@ impl Plan {
     /// case a pass cuts every step of another in two, so that its error falls as the method's order says,
     /// and where it does not, the three show it.
     fn run_to_tolerance(
-        &self,
+        self: &Arc<Self>,
         span: Span,
         times: &[f64],
         tolerance: f64,
@@ -145,15 +149,16 @@ impl Plan {
             let allowed = format!("at least {floor:.1e}, what rounding leaves of this scene");
             return Err(Error::value("run", "tolerance", allowed, tolerance).into());
         }
-        let course = Course { plan: Arc::new(self.clone()), span, times };
+        let course = Course { plan: self.clone(), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(self, span, tolerance);
-        let (began, mut mismatches) = (thread_seconds(), 0);
+        let (began, mut mismatches, mut best) = (thread_seconds(), 0, None::<Trajectory>);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
+            let grain = pace.grain(4.0);
             let (mut run, nodes) = course.attempt(
                 self.controls(&pace.control),
-                pace.grain(4.0),
+                if estimates { grain } else { Grain { nudge: 0.0, ..grain } },
                 3 * number + 1,
                 observer,
                 &mut failure,
@@ -173,6 +178,20 @@ impl Plan {
                 return finish(run, span, tolerance, &pace, failure);
             }
 
+            // what coarse steps broke, finer ones may mend; where the finest break, the rounds before have told
+            if failure.is_some() {
+                let next = pace.finer(self.order(), tolerance, f64::INFINITY);
+                let steps = run.report.counts.steps as f64 * pace.longer(self.order(), &next);
+                match best {
+                    Some(best) => return Ok(best),
+                    None if pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS => {
+                        return finish(run, span, tolerance, &pace, failure);
+                    }
+                    None => pace = next,
+                }
+                continue;
+            }
+
             // the same steps, each cut in two, and in four
             let coarser = run;
             let nodes: Vec<Arc<[f64]>> = nodes.into_iter().map(Into::into).collect();
@@ -186,7 +205,7 @@ impl Plan {
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
             let gain =
-                if has_impacts(&run) { EVENT_GAIN } else { observed_gain(self.method(), &coarser, &coarse, &run) };
+                if has_impacts(&run) { EVENT_GAIN } else { observed_gain(self.order(), &coarser, &coarse, &run) };
             let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
             run.report.error_estimate = Some(comparison.within_horizon);
             run.report.estimated_by = if comparison.worst.is_finite() {
@@ -195,19 +214,30 @@ impl Plan {
                 "up to the horizon, after which the impacts of a second run differ".into()
             };
             run.report.met = Some(comparison.worst <= tolerance);
-            let next = pace.finer(self.method(), tolerance, comparison.worst);
-            let steps = run.report.counts.steps as f64 * pace.longer(self.method(), &next);
+            let next = pace.finer(self.order(), tolerance, comparison.worst);
+            let steps = run.report.counts.steps as f64 * pace.longer(self.order(), &next);
             let differs = comparison.worst.is_infinite() && has_impacts(&run);
             mismatches += u32::from(differs);
             let is_last = pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS || mismatches == MISMATCHES;
-            if comparison.worst <= tolerance || is_last {
-                return finish(run, span, tolerance, &pace, failure).map(|mut run| {
+            let length = run.report.length_scale;
+            match finish(run, span, tolerance, &pace, failure) {
+                Ok(mut run) => {
                     run.report.horizon = comparison.horizon;
-                    run
-                });
+                    if comparison.worst <= tolerance {
+                        return Ok(run);
+                    }
+                    if best.as_ref().is_none_or(|best| best.report.horizon <= run.report.horizon) {
+                        best = Some(run);
+                    }
+                }
+                Err(error) if is_last && best.is_none() => return Err(error),
+                Err(_) => {}
+            }
+            if let Some(best) = best.take_if(|_| is_last) {
+                return Ok(best);
             }
             pace = next;
-            pace.measure_by(run.report.length_scale);
+            pace.measure_by(length);
         }
         Err(Error::refused("run", "no pass was made").into())
     }
@@ -301,8 +331,7 @@ impl Course<'_> {
             kind: Failure::Refused(error.to_string()),
             trajectory: None,
         };
-        let mut simulation = Simulation::new(plan.clone(), span, controls).map_err(refused)?;
-        simulation.grain = grain;
+        let mut simulation = Simulation::new(plan.clone(), span, controls, grain).map_err(refused)?;
         let lanes = simulation.lanes.len();
         let mut run = Trajectory::new(plan.clone(), times.to_vec());
         for (group, spec) in plan.groups().iter().enumerate() {
@@ -343,7 +372,7 @@ impl Course<'_> {
                 broken = Some(error);
             }
         }
-        for lane in 0..lanes {
+        for lane in 0..simulation.lanes.len() {
             // a step that was still open where a run ends is known up to there
             if let Err(error) = simulation.finish_step(lane, &mut Some(&mut run)) {
                 if broken.as_ref().is_none_or(|other| error.time < other.time) {
@@ -352,18 +381,18 @@ impl Course<'_> {
                 continue;
             }
             let to = until(&simulation, &broken);
-            let lane = &mut simulation.lanes[lane];
-            let mut motions = lane.motions.clone();
-            lane.flight.at(lane.flight.front(), &mut motions);
-            run.record_rest(lane.phase, &motions, &mut lane.cursor, to.min(lane.flight.front()));
+            simulation.record_rest(lane, &mut run, to);
         }
 
         run.report.counts = simulation.counts();
         run.report.impacts =
             simulation.events.iter().filter(|e| matches!(e.kind, EventKind::Bounce | EventKind::Stick)).count() as u64;
         run.report.impact_iterations = simulation.iterations;
+        run.report.touch_impacts = simulation.touch_impacts;
         run.heat = simulation.heat;
         run.heat.sort_by(|a, b| a.to.total_cmp(&b.to));
+        run.work = simulation.work;
+        run.work.sort_by(|a, b| a.to.total_cmp(&b.to));
         run.events = simulation.events;
         run.events.sort_by(|a, b| a.time.total_cmp(&b.time));
         // an event that ends the run goes before what broke off behind it
@@ -372,7 +401,7 @@ impl Course<'_> {
             None => {
                 run.end = span.end;
                 run.close(early);
-                Ok((run, simulation.lanes.iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
+                Ok((run, simulation.lanes[..lanes].iter_mut().map(|lane| std::mem::take(&mut lane.nodes)).collect()))
             }
             Some(error) => {
                 run.events.retain(|event| event.time <= error.time);
@@ -390,8 +419,8 @@ fn has_impacts(run: &Trajectory) -> bool {
 }
 
 /// How many times smaller the error is at half the step, where the method shows its order [-].
-fn full_gain(method: Method) -> f64 {
-    libm::pow(2.0, f64::from(method.order()))
+fn full_gain(order: u32) -> f64 {
+    libm::pow(2.0, f64::from(order))
 }
 
 /// How far a gain is trusted: a part of it; and where there is none, as where rounding rules, both runs
@@ -403,10 +432,10 @@ fn trusted(gain: f64) -> f64 {
 /// The gain by which the error of the finest of three runs is told, each with half the steps of the one
 /// before. A load with a kink, such as drag at the turn of a motion, costs the method its order; then the
 /// differences fall more slowly, and less is trusted.
-fn observed_gain(method: Method, coarser: &Trajectory, coarse: &Trajectory, fine: &Trajectory) -> f64 {
+fn observed_gain(order: u32, coarser: &Trajectory, coarse: &Trajectory, fine: &Trajectory) -> f64 {
     let [first, second] = [(coarse, coarser), (fine, coarse)].map(|(a, b)| Comparison::new(a, b, 2.0, 0.0, None).worst);
     let seen = if second > 0.0 { first / second } else { f64::INFINITY };
-    trusted(full_gain(method).min(seen))
+    trusted(full_gain(order).min(seen))
 }
 
 /// How fine the first run of a round is.
@@ -418,7 +447,7 @@ impl Pace {
     /// The first try: steps whose error is a part of the tolerance, or that follow every body's turning.
     pub(super) fn first(plan: &Plan, span: Span, tolerance: f64) -> Self {
         let time = span.end - span.start;
-        let gain = full_gain(plan.method());
+        let gain = full_gain(plan.order());
         let part = if plan.options().estimate { FIRST_LOCAL * trusted(gain) * gain } else { FIRST_LOCAL };
         if !plan.method().controls_error() {
             return Self { control: Control::Step(plan.first_step(time)) };
@@ -428,17 +457,17 @@ impl Pace {
         Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
     }
 
-    /// How finely a pass looks at contacts, `times` as coarse as the finest of a round.
+    /// What a pass does coarsely, `times` as much as the finest of a round.
     fn grain(&self, times: f64) -> Grain {
         let step = match &self.control {
             Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(2.0),
             Control::Step(_) | Control::Mesh(_) => 1.0,
         };
-        Grain { eps: times, step: 0.25 * times * step }
+        Grain { step: 0.25 * times * step, ..Grain::times(times) }
     }
 
     /// What should meet the tolerance, where this pace left an estimate.
-    fn finer(&self, method: Method, tolerance: f64, estimate: f64) -> Self {
+    fn finer(&self, order: u32, tolerance: f64, estimate: f64) -> Self {
         let wanted = if estimate.is_finite() { SAFETY * tolerance / estimate } else { 0.0 };
         let control = match &self.control {
             Control::Error(limits) => {
@@ -446,7 +475,7 @@ impl Pace {
                 Control::Error(Limits { local, ..*limits })
             }
             Control::Step(step) => {
-                Control::Step(step * libm::pow(wanted, 1.0 / f64::from(method.order())).clamp(1.0 / 32.0, 0.5))
+                Control::Step(step * libm::pow(wanted, 1.0 / f64::from(order)).clamp(1.0 / 32.0, 0.5))
             }
             other @ Control::Mesh(_) => other.clone(),
         };
@@ -454,11 +483,9 @@ impl Pace {
     }
 
     /// How many times more steps another pace takes.
-    fn longer(&self, method: Method, other: &Self) -> f64 {
+    fn longer(&self, order: u32, other: &Self) -> f64 {
         match (&self.control, &other.control) {
-            (Control::Error(a), Control::Error(b)) => {
-                libm::pow(a.local / b.local, 1.0 / f64::from(method.order().max(1)))
-            }
+            (Control::Error(a), Control::Error(b)) => libm::pow(a.local / b.local, 1.0 / f64::from(order.max(1))),
             (Control::Step(a), Control::Step(b)) => a / b,
             _ => 1.0,
         }

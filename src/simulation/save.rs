@@ -7,10 +7,13 @@ use std::sync::Arc;
 use super::lasting::Together;
 use super::led::Led;
 use super::near::{Due, Window};
-use super::{Lane, Simulation};
+use super::{Grain, Lane, Simulation};
 use crate::contact::accumulation::Accumulation;
 use crate::error::{Error, Result};
+use crate::freedom::Chart;
 use crate::integrator::{Control, Counts, Front, Segment};
+use crate::math::Pose;
+use crate::math::sum::Time;
 use crate::scene::{RunOptions, Scene, Span};
 use crate::state::BodyMotion;
 use crate::trajectory::{Event, Heat};
@@ -29,10 +32,14 @@ struct Saved {
     together: Vec<Option<Together>>,
     together_number: u64,
     stuck: Vec<usize>,
+    /// Compounds in the order of their making: their parts, and where these stand in them.
+    compounds: Vec<Vec<(usize, Pose)>>,
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
+    work: Vec<Heat>,
     iterations: u64,
+    touch_impacts: u64,
 }
 
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -54,7 +61,7 @@ struct SavedLane {
 }
 
 /// Version of the file's layout.
-const VERSION: &str = "state 4";
+const VERSION: &str = "state 5";
 
 impl Simulation {
     /// Writes the running state to a file, conventionally `.bryla`.
@@ -77,6 +84,8 @@ impl Simulation {
             watchers: lane.watchers.clone(),
             switched: lane.switched.clone(),
         });
+        let compounds = self.compounds.iter();
+        let compounds = compounds.map(|compound| compound.parts.iter().map(|part| (part.body, part.pose)).collect());
         let saved = Saved {
             bryla: VERSION.to_owned(),
             scene: self.plan.scene().clone(),
@@ -88,10 +97,13 @@ impl Simulation {
             together: self.together.clone(),
             together_number: self.together_number,
             stuck: self.stuck.clone(),
+            compounds: compounds.collect(),
             bounces: self.bounces.clone(),
             events: self.events.clone(),
             heat: self.heat.clone(),
+            work: self.work.clone(),
             iterations: self.iterations,
+            touch_impacts: self.touch_impacts,
         };
         let path = path.as_ref();
         let text = serde_json::to_string(&saved).map_err(|error| file_error(path, &error))?;
@@ -112,13 +124,22 @@ impl Simulation {
         let plan = Arc::new(saved.scene.compile(&saved.options)?);
         let step = saved.options.step.ok_or_else(|| file_error(path, &"no step in it"))?;
         let span = Span { start: saved.time, end: f64::INFINITY };
-        let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)))?;
-        if saved.lanes.len() != simulation.lanes.len() {
-            return Err(file_error(path, &"its state does not belong to its scene"));
+        let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)), Grain::FINE)?;
+        let belongs = || file_error(path, &"its state does not belong to its scene");
+        for parts in saved.compounds {
+            if parts.len() < 2 || parts.iter().any(|(body, _)| plan.bodies().get(*body).is_none_or(|body| body.fixed)) {
+                return Err(belongs());
+            }
+            simulation.join(&parts, Time::new(saved.time))?;
         }
-        for (group, (lane, saved)) in simulation.lanes.iter_mut().zip(saved.lanes).enumerate() {
-            lane.continue_from(&plan, group, step, saved)
-                .ok_or_else(|| file_error(path, &"its state does not belong to its scene"))??;
+        simulation.joined.clear();
+        if saved.lanes.len() != simulation.lanes.len() {
+            return Err(belongs());
+        }
+        for (lane, saved) in saved.lanes.into_iter().enumerate() {
+            simulation.lanes[lane].held.clone_from(&saved.held);
+            let charts = simulation.charts_of(lane)?;
+            simulation.lanes[lane].continue_from(&plan, charts, step, saved).ok_or_else(belongs)?;
         }
         simulation.near.restore(saved.windows, saved.due);
         simulation.together = saved.together;
@@ -127,7 +148,9 @@ impl Simulation {
         simulation.bounces = saved.bounces;
         simulation.events = saved.events;
         simulation.heat = saved.heat;
+        simulation.work = saved.work;
         simulation.iterations = saved.iterations;
+        simulation.touch_impacts = saved.touch_impacts;
         Ok(simulation)
     }
 }
@@ -137,28 +160,23 @@ impl Lane {
     fn continue_from(
         &mut self,
         plan: &crate::plan::Plan,
-        group: usize,
+        charts: Vec<Chart>,
         step: f64,
         saved: SavedLane,
-    ) -> Option<Result<()>> {
+    ) -> Option<()> {
         let fits = saved.motions.len() == self.motions.len()
             && saved.watchers.len() == self.watchers.len()
             && saved.switched.len() == self.switched.len();
         if !fits {
             return None;
         }
-        self.charts = match plan.charts(group, &saved.held) {
-            Ok(charts) => charts,
-            Err(error) => return Some(Err(error)),
-        };
-        if saved.led.is_some() {
-            self.flight = Box::new(Led::new(self.charts.clone(), saved.front.time, &saved.motions));
+        let (t, motions) = (saved.front.time, &saved.motions);
+        self.flight = if saved.led.is_some() {
+            Box::new(Led::new(charts.clone(), t, motions))
         } else {
-            match plan.flight_for(group, saved.front.time.value, &Control::Step(step), &saved.motions, &saved.held) {
-                Ok(flight) => self.flight = flight,
-                Err(error) => return Some(Err(error)),
-            }
-        }
+            plan.flight_of(&self.spec, t.value, &Control::Step(step), charts.clone(), motions)
+        };
+        self.charts = charts;
         let n = self.flight.saved_front().y.len();
         if saved.front.y.len() != n || saved.front.rest.len() != n || !saved.segment.fits(n) {
             return None;
@@ -170,7 +188,7 @@ impl Lane {
         self.motions = saved.motions;
         self.watchers = saved.watchers;
         self.switched = saved.switched;
-        Some(Ok(()))
+        Some(())
     }
 }
 

@@ -93,9 +93,8 @@ impl Simulation {
     /// Looks whether a load is turned within the last step. If so the step is taken back, to end there when it is
     /// taken again; true then.
     pub(super) fn find_turn(&mut self, index: usize, begun: &Begun) -> Result<bool, SimulationError> {
-        let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
-        let spec = &plan.groups()[lane.group];
+        let spec = lane.spec.clone();
         let arrived = lane.ahead.take().filter(|ahead| lane.flight.front() >= ahead.time);
         if let Err(error) = lane.flight.interpolate() {
             let time = begun.0.time.value;
@@ -192,9 +191,8 @@ impl Simulation {
 
     /// Turns a load at the front.
     fn turn(&mut self, index: usize, which: usize) -> Result<(), SimulationError> {
-        let plan = self.plan.clone();
         let lane = &mut self.lanes[index];
-        let spec = &plan.groups()[lane.group];
+        let spec = lane.spec.clone();
         let (toggle, state) = (&spec.toggles[which], &mut lane.switched[which]);
         let time = lane.flight.front();
         let passage = if toggle.switch.next(state.on).1 { Passage::Rising } else { Passage::Falling };

@@ -25,6 +25,7 @@ struct Saved<'a> {
     phases: Cow<'a, [Phase]>,
     events: Cow<'a, [Event]>,
     heat: Cow<'a, [Heat]>,
+    work: Cow<'a, [Heat]>,
     report: Cow<'a, Report>,
     end: f64,
     ended_by: Option<Cow<'a, str>>,
@@ -37,7 +38,7 @@ impl Saved<'_> {
         let phase_fits = |phase: &Phase| {
             let n: usize = phase.charts.iter().map(Chart::dimension).sum();
             plan.groups().get(phase.group).is_some_and(|group| {
-                let members = group.members.len();
+                let members = group.members.len() + usize::from(phase.has_parts());
                 phase.charts.len() == members && phase.motions.len() == members
             }) && phase.segments.iter().all(|s| s.fits(n))
         };
@@ -59,6 +60,7 @@ impl Serialize for Trajectory {
             phases: Cow::Borrowed(&self.phases),
             events: Cow::Borrowed(&self.events),
             heat: Cow::Borrowed(&self.heat),
+            work: Cow::Borrowed(&self.work),
             report: Cow::Borrowed(&self.report),
             end: self.end,
             ended_by: self.ended_by.as_deref().map(Cow::Borrowed),
@@ -82,6 +84,7 @@ impl<'de> Deserialize<'de> for Trajectory {
             phases: saved.phases.into_owned(),
             events: saved.events.into_owned(),
             heat: saved.heat.into_owned(),
+            work: saved.work.into_owned(),
             report: saved.report.into_owned(),
             end: saved.end,
             ended_by: saved.ended_by.map(Cow::into_owned),

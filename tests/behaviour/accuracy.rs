@@ -165,12 +165,12 @@ fn comparing_by_tolerance_shows_errors_below_it_and_rising_cost() {
     let named = CompareOptions { methods: vec![Method::Rk4], tolerances, ..Default::default() };
     let message = scene.compare(0.0..4.0, &named).unwrap_err().to_string();
     let said = "compare: tolerances must be steps for rk4, which does not choose them, or only tsit5, dop853, radau5, \
-                exact, got [1e-5, 1e-7, 1e-9]";
+                taylor, exact, got [1e-5, 1e-7, 1e-9]";
     assert_eq!(message, said);
 }
 
 #[test]
-fn the_plan_takes_a_splitting_where_a_conservative_motion_is_long_and_wanted_exactly() {
+fn the_plan_takes_splittings_and_series_where_they_are_cheapest() {
     let mut scene = Scene::new();
     scene.add_effect(bryla::UniformGravity::new([0.0, 0.0, -9.81]));
     let inertia = bryla::math::Matrix3::from_diagonal(&[0.01, 0.013, 0.004].into());
@@ -184,8 +184,15 @@ fn the_plan_takes_a_splitting_where_a_conservative_motion_is_long_and_wanted_exa
     };
     // 40 rad/s: 3,000 turns take 471 s
     assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Split6);
-    assert_eq!(chosen(&scene, 400.0, 1e-9), Method::Dop853);
+    assert_eq!(chosen(&scene, 400.0, 1e-9), Method::Taylor);
+    assert_eq!(chosen(&scene, 400.0, 1e-8), Method::Dop853);
     assert_eq!(chosen(&scene, 700.0, 1e-6), Method::Dop853);
     scene.add_effect(bryla::Drag { angular_linear: 1e-6, ..bryla::Drag::default() });
-    assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Dop853);
+    assert_eq!(chosen(&scene, 700.0, 1e-9), Method::Taylor);
+    // not where a load swings, nor where it has no series at all
+    let mut swinging = scene.clone();
+    swinging.add_effect(Wrench::new("top", [0.0; 3], [0.0, 0.0, 1e-3]).oscillating(2.0, 0.0));
+    assert_eq!(chosen(&swinging, 400.0, 1e-9), Method::Dop853);
+    scene.add_effect(bryla::Drag::new(0.0, 1e-6));
+    assert_eq!(chosen(&scene, 400.0, 1e-9), Method::Dop853);
 }

@@ -70,6 +70,20 @@ fn every_mistake_in_a_body_has_its_message() {
             "body die: velocity must be left out, since the body is fixed, got [1.0, 0.0, 0.0]",
         ),
         ("fixed = true\nfreedom.pivot.point_body = [0, 0, 1]", "body die: fixed and freedom exclude each other"),
+        ("fixed = true\nmotion.velocity = [1, 0, 0]", "body die: fixed and motion exclude each other"),
+        (
+            "motion.velocity = [1, 0, 0]\nvelocity = [1, 0, 0]",
+            "body die: velocity must be left out, since its motion says it, got [1.0, 0.0, 0.0]",
+        ),
+        ("motion = {}\nfreedom.pivot.point_body = [0, 0, 1]", "body die: motion and freedom exclude each other"),
+        (
+            "motion.angular_velocity = [1, nan, 0]",
+            "body die: motion.angular_velocity must be three finite numbers, got [1.0, NaN, 0.0]",
+        ),
+        (
+            "motion.schedule = [[1.0, 1.0], [0.5, 0.0]]",
+            "body die: schedule must be sorted by rising time, got (1.0, 0.5)",
+        ),
         (
             "freedom.planar.normal = [0, 0, 0]",
             "body die: freedom.planar.normal must be a finite vector that is not 0, got [0.0, 0.0, 0.0]",
@@ -236,7 +250,7 @@ fn unknown_keys_are_shown_with_line_caret_and_the_allowed_names() {
     let text = told("[[bodies]]\nname = \"die\"\nmas = 1.0\n");
     assert_eq!(
         text,
-        "scene: TOML parse error at line 3, column 1\n  |\n3 | mas = 1.0\n  | ^^^\nunknown field `mas`, expected one of `name`, `shape`, `density`, `mass`, `inertia`, `position`, `origin`, `orientation`, `velocity`, `angular_velocity`, `angular_velocity_body`, `friction`, `restitution`, `response`, `fixed`, `freedom`, `collides`"
+        "scene: TOML parse error at line 3, column 1\n  |\n3 | mas = 1.0\n  | ^^^\nunknown field `mas`, expected one of `name`, `shape`, `density`, `mass`, `inertia`, `position`, `origin`, `orientation`, `velocity`, `angular_velocity`, `angular_velocity_body`, `friction`, `restitution`, `response`, `fixed`, `motion`, `freedom`, `collides`"
     );
     let text = told("[[effects]]\ndragg.linear = 1.0\n");
     assert!(

@@ -13,8 +13,11 @@ mod freedoms;
 mod impacts;
 mod layers;
 mod order;
+mod prescribed;
 mod promises;
 mod rest;
+mod series;
+mod sticking;
 mod switching;
 
 use bryla::{Body, BodyState, Method, RunOptions, Scene, Trajectory};
@@ -35,6 +38,12 @@ const SMALLEST_ERROR: f64 = 1e-11;
 /// The methods that take steps: all but the closed form, which has no step and no slope.
 fn stepping() -> impl Iterator<Item = Method> {
     Method::ALL.iter().copied().filter(|&method| method != Method::Exact)
+}
+
+/// Those of them that take the loads of a scene: all but `dmv` where a torque acts.
+fn stepping_through(scene: &Scene) -> impl Iterator<Item = Method> {
+    let torque = !scene.effects.is_empty();
+    stepping().filter(move |&method| !(torque && method == Method::Dmv))
 }
 
 /// Runs with a method and a step, without an estimate.

@@ -1,6 +1,6 @@
 //! The order of every method, on problems without symmetry.
 
-use super::{LARGEST_ERROR, SMALLEST_ERROR, distance, free_body, last, run, stepping};
+use super::{LARGEST_ERROR, SMALLEST_ERROR, distance, free_body, last, run, stepping_through};
 use bryla::{Method, Orientation, RunOptions, Scene, Wrench};
 
 /// The free body, driven by a torque and a force that oscillate, at a point off the centre of mass.
@@ -17,7 +17,7 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
     for (name, scene) in [("free", free_body()), ("driven", driven_body())] {
         // truth: the method of order 4 with a step of 2⁻¹³, error about 1e-15 + rounding
         let truth = last(&run(&scene, span, Method::Rk4, span / 32768.0));
-        for method in stepping() {
+        for method in stepping_through(&scene) {
             for matrix in [Orientation::Quaternion, Orientation::Matrix] {
                 if matrix == Orientation::Matrix && method.in_body_axes() {
                     continue;
@@ -25,7 +25,8 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
                 let error = |n: u32| {
                     let options =
                         RunOptions::method(method).step(span / f64::from(n)).estimate(false).orientation(matrix);
-                    distance(&last(&scene.run(0.0..span, &options).unwrap()), &truth)
+                    // a step too long for the discrete rotation has no end
+                    scene.run(0.0..span, &options).map_or(f64::INFINITY, |run| distance(&last(&run), &truth))
                 };
                 // steps in the ratios 3 : 4 and 2 : 3, so that the few that high orders need are among them
                 let errors: Vec<_> = (2..16).flat_map(|k| [1 << k, 3 << (k - 1)]).map(|n| (n, error(n))).collect();
@@ -40,7 +41,9 @@ fn halving_the_step_divides_the_error_by_two_to_the_order() {
                 let at_once = matches!(method, Method::Euler | Method::Heun | Method::SemiImplicitEuler | Method::Rk4);
                 let settled = if at_once { &slopes[..] } else { &slopes[slopes.len() - 1..] };
                 let least = settled.iter().copied().fold(f64::INFINITY, f64::min);
-                assert!(least >= order - 0.1, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
+                // the next terms of a series still show where its errors meet rounding
+                let slack = if method == Method::Taylor { 0.3 } else { 0.1 };
+                assert!(least >= order - slack, "{method} on the {name} body ({}): {slopes:.2?}", matrix.name());
 
                 // and half of all slopes on their way there
                 let mut sorted = slopes.clone();
@@ -60,7 +63,7 @@ fn a_step_never_straddles_a_switch_so_the_order_survives_it() {
     let schedule = [(0.0, 1.0), (1.2345678, -0.7), (2.3456789, 0.0)];
     scene.add_effect(bryla::Thruster::new("body", [0.1, 0.4, -0.2], [0.8, 0.3, 0.5]).schedule(schedule));
     let truth = last(&run(&scene, 3.0, Method::Rk4, 3.0 / 32768.0));
-    for method in stepping() {
+    for method in stepping_through(&scene) {
         let error = |n: u32| distance(&last(&run(&scene, 3.0, method, 3.0 / f64::from(n))), &truth);
         // the steps before the switches differ from the others, which blurs the slope of one halving: it is taken
         // over the finer half of the steps whose errors lie in the window

@@ -1,6 +1,6 @@
 //! Loads that the state turns on and off: at the right instants, with the order of the method kept.
 
-use super::{LARGEST_ERROR, SMALLEST_ERROR, distance, free_body, last, run, stepping};
+use super::{LARGEST_ERROR, SMALLEST_ERROR, distance, free_body, last, run, stepping_through};
 use bryla::simulation::Failure;
 use bryla::{
     Body, Drag, EventKind, Measure, MeasureFunction, Method, RunError, RunOptions, Scene, Sphere, Switch, Thruster,
@@ -80,7 +80,7 @@ fn every_method_keeps_its_order_across_switches_by_the_state() {
     let switches = truth.events().len();
     assert!(switches >= 3, "{:?}", truth.events().iter().map(|e| (&e.name, e.time)).collect::<Vec<_>>());
     let truth = last(&truth);
-    for method in stepping() {
+    for method in stepping_through(&scene) {
         let error = |n: u32| {
             let run = run(&scene, 4.0, method, 4.0 / f64::from(n));
             (distance(&last(&run), &truth), run.events().len() == switches)

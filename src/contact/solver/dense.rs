@@ -164,6 +164,9 @@ const RANK: f64 = 1.0e-12;
 
 /// The shortest `x` of those that bring `A x` nearest to `b`; refined twice against the given matrix.
 pub fn least_norm(a: &Dense, b: &[f64]) -> Vec<f64> {
+    if let Some(x) = solve_small(a, b) {
+        return x;
+    }
     let factors = Orthogonal::new(a);
     let mut x = factors.solve(b);
     for _ in 0..2 {
@@ -175,6 +178,66 @@ pub fn least_norm(a: &Dense, b: &[f64]) -> Vec<f64> {
     }
     x
 }
+
+/// The solution for up to three unknowns, by elimination with the largest pivot of all first, refined once; none
+/// where the rank is deficient.
+fn solve_small(a: &Dense, b: &[f64]) -> Option<Vec<f64>> {
+    let n = a.size;
+    if n > SMALL {
+        return None;
+    }
+    let mut right = [0.0; SMALL];
+    right[..n].copy_from_slice(b);
+    let x = eliminate(a, right)?;
+    let mut rest = right;
+    for (r, rest) in rest[..n].iter_mut().enumerate() {
+        *rest -= (0..n).map(|c| a.at(r, c) * x[c]).sum::<f64>();
+    }
+    let correction = eliminate(a, rest)?;
+    Some((0..n).map(|k| x[k] + correction[k]).collect())
+}
+
+/// One elimination of up to three unknowns.
+fn eliminate(a: &Dense, b: [f64; SMALL]) -> Option<[f64; SMALL]> {
+    let (n, mut rows, mut order) = (a.size, [[0.0; SMALL + 1]; SMALL], [0, 1, 2]);
+    for (r, row) in rows[..n].iter_mut().enumerate() {
+        (0..n).for_each(|c| row[c] = a.at(r, c));
+        row[SMALL] = b[r];
+    }
+    let mut first = 0.0;
+    for k in 0..n {
+        // the largest pivot; of equal ones the first
+        let (mut best, mut at) = (0.0, (k, k));
+        for (r, row) in rows[..n].iter().enumerate().skip(k) {
+            for (c, entry) in row[..n].iter().enumerate().skip(k) {
+                if entry.abs() > best * (1.0 + 1e-12) {
+                    (best, at) = (entry.abs(), (r, c));
+                }
+            }
+        }
+        first = if k == 0 { best } else { first };
+        if best <= RANK * first || !best.is_finite() {
+            return None;
+        }
+        rows.swap(k, at.0);
+        rows[..n].iter_mut().for_each(|row| row.swap(k, at.1));
+        order.swap(k, at.1);
+        let pivot = rows[k];
+        for row in &mut rows[k + 1..n] {
+            let factor = row[k] / pivot[k];
+            (k..=SMALL).for_each(|c| row[c] -= factor * pivot[c]);
+        }
+    }
+    let mut x = [0.0; SMALL];
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|c| rows[k][c] * x[order[c]]).sum();
+        x[order[k]] = (rows[k][SMALL] - known) / rows[k][k];
+    }
+    Some(x)
+}
+
+/// Unknowns that are solved without a matrix on the heap [-]: those of one contact with friction.
+const SMALL: usize = 3;
 
 /// A complete orthogonal decomposition.
 struct Orthogonal {

@@ -11,7 +11,7 @@
 //! | [`splitting`] | the same where Newton's method fails, by a slow and sure splitting |
 //! | [`dense`] | the linear algebra beneath |
 //!
-//! [`Coulomb::solve`] is the ladder: all contacts grip; Newton from there and from nothing; the splitting with
+//! [`Coulomb::solve`] is the ladder: all contacts carry, gripping or sliding as is known; Newton from there and from nothing; the splitting with
 //! Newton as its last step; Newton on other branches. What comes out is the first answer whose residual is at most [`CERTIFIED`], else the best.
 
 pub mod active_set;
@@ -129,10 +129,33 @@ impl Coulomb<'_> {
         Solution { impulse, residual }
     }
 
-    /// The least-norm impulses that stop every contact.
-    fn grip(&self) -> Vec<f64> {
-        let stop: Vec<f64> = self.q.iter().map(|q| -q).collect();
-        least_norm(self.w, &stop)
+    /// The least-norm impulses where every contact carries: what is known to slide slides, all else grips.
+    ///
+    /// ```text
+    /// p = p_n (1, −μ s)      one unknown and the normal row of a contact that slides, three of one that grips
+    /// ```
+    fn carry(&self) -> Vec<f64> {
+        let slides = |i: usize| self.slide[i].is_some();
+        let rows: Vec<usize> = (0..self.q.len()).filter(|row| row.is_multiple_of(3) || !slides(row / 3)).collect();
+        let ray = |i: usize| self.slide[i].map(|s| s.map(|s| -self.friction[i] * s));
+        let a = Dense::from_fn(rows.len(), |r, c| {
+            let (row, column) = (rows[r], rows[c]);
+            let along = ray(column / 3).unwrap_or_default();
+            let own = self.w.at(row, column);
+            if along == [0.0; 2] {
+                return own;
+            }
+            own + along[0] * self.w.at(row, column + 1) + along[1] * self.w.at(row, column + 2)
+        });
+        let stop: Vec<f64> = rows.iter().map(|&row| -self.q[row]).collect();
+        let mut p = vec![0.0; self.q.len()];
+        for (&row, x) in rows.iter().zip(least_norm(&a, &stop)) {
+            p[row] = x;
+            if let Some(along) = ray(row / 3) {
+                (p[row + 1], p[row + 2]) = (along[0] * x, along[1] * x);
+            }
+        }
+        p
     }
 
     /// Solves the problem by the ladder of the [module](self).
@@ -145,13 +168,11 @@ impl Coulomb<'_> {
         if best.residual <= CERTIFIED {
             return best;
         }
-        if self.slide.iter().all(Option::is_none) {
-            best = best.or(self.certify(&self.grip()));
-            if best.residual <= CERTIFIED {
-                return best;
-            }
-            starts.insert(0, best.impulse.clone());
+        best = best.or(self.certify(&self.carry()));
+        if best.residual <= CERTIFIED {
+            return best;
         }
+        starts.insert(0, best.impulse.clone());
         for start in &starts {
             best = best.or(self.certify(&newton::solve(self, start, newton::ROUNDS, 1.0)));
             if best.residual <= CERTIFIED {
