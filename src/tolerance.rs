@@ -59,7 +59,7 @@ pub const COORDINATE_MIN: f64 = 1.0e-30;
 /// How far the bounds of an answer may be apart beyond what the rounding of the coordinates costs, as a
 /// fraction of the pair's size [-]. Wider answers are repeated in double-double. Larger: fewer repeats,
 /// wider intervals. Smaller: more repeats.
-pub const CERTIFICATE_SLACK: f64 = 6.0 * f64::EPSILON;
+pub const CERTIFICATE_SLACK: f64 = 2.0 * f64::EPSILON;
 
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
 /// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.

@@ -2200,8 +2200,8 @@ class ClosestFeatures:
 
     @property
     def rung(self) -> str:
-        """How far the query had to climb: "verified" (the cached vertices still were the answer), "walked"
-        (from the cached features), "searched" or "double_double".
+        """How far the query had to climb: "verified" (the cached vertices or their neighbours were the answer),
+        "walked" (from the cached features), "searched" or "double_double".
         """
 
     @property

@@ -61,8 +61,9 @@ impl Feature {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Accuracy {
     /// At an interval as narrow as rounding allows. Of the size, which is both radii plus the distance of
-    /// the centres, it is at most 36 ε for polyhedra, balls and capsules, mostly 10 to 28; 40 ε for
-    /// curved bodies; 52 ε with half spaces and pieces of compounds.
+    /// the centres, it is at most 16 ε for polyhedra, balls and capsules, mostly 9 to 13, and up to 19 ε
+    /// for an overlap about as deep as both radii; 23 ε for curved bodies and pieces of compounds, 36 ε with
+    /// half spaces.
     #[default]
     Exact,
     /// At an interval of this fraction of the size [-].
@@ -74,7 +75,7 @@ pub enum Accuracy {
 /// How far a query had to climb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
-    /// The cached vertices still were the answer.
+    /// The cached vertices still were the answer, or up to three others that the looks around came upon.
     Verified,
     /// The walk from the cached features.
     Walked,

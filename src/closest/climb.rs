@@ -1,12 +1,15 @@
 //! Two convex pieces: the rungs of a query, from the cached vertices to double-double.
 
 use super::answer::{Accuracy, ClosestFeatures, Rung, State};
-use super::cache::PairCache;
+use super::cache::{Packed, PairCache};
 use super::collider::{Core, View};
-use super::depth::{self, Core as Enclosing};
+use super::depth::{self, Enclosing};
+use super::meridian;
 use super::pair::{Difference, Ids, Pair, feature};
 use super::round_pair::RoundPair;
 use super::search::{self, Bounds, Found};
+use super::simplex::Simplex;
+use super::surface::Workshop;
 use super::vector::Vec3;
 use super::walk;
 use crate::math::double_double::{DoubleDouble, Real};
@@ -33,13 +36,35 @@ pub(super) fn polyhedra(
     let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
     let (views, center) = ([view_a, view_b], at_a.point(a.center()));
     let rounding = view_a.rounding + view_b.rounding;
+    let pair = Pair::new(a, &at_a, b, &at_b);
     let mut start = [[0; 2]; PairCache::CAPACITY];
-    let (count, inside) = cache.as_ref().map_or((0, false), |c| c.load(a, b, &mut start));
+    let count = cache.as_ref().map_or(0, |c| c.load(a, b, &mut start));
+    let start = &start[..count];
     let mut steps = 0;
 
+    // the vertices of the last answer, where the bodies were apart
+    let was_apart = (1..=3).contains(&count);
+    if was_apart {
+        let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
+        let mut found = Bounds::unknown(pair.simplex(start));
+        if search::verify(&pair, &mut found, gap, &mut steps) {
+            let answer = describe(&pair, &found, views, &center, accuracy, steps, Rung::Verified);
+            if answer.certified {
+                if let Some(cache) = cache {
+                    cache.store(&found.simplex.ids[..found.simplex.count]);
+                }
+                return answer;
+            }
+        }
+    }
+
     // in f64 first, in double-double where that proves too little
-    let pair = Pair::new(a, &at_a, b, &at_b);
-    let mut found = climb(&pair, &start[..count], inside, rounding, accuracy, &mut steps);
+    let mut found = if was_apart {
+        walk(&pair, start, rounding, accuracy, &mut steps)
+    } else {
+        let surface = cache.as_ref().and_then(|c| c.surface(a, b));
+        climb(&pair, start, surface, rounding, accuracy, &mut steps)
+    };
     let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
     if !answer.certified {
         let pair = Pair::precise(a, &at_a, b, &at_b);
@@ -52,8 +77,10 @@ pub(super) fn polyhedra(
     }
     if let Some(cache) = cache {
         match found.core {
-            Some((ids, count)) if count >= 4 => cache.store(&ids[..count], true),
-            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count], false),
+            Enclosing::Surface(packed) => cache.store_surface(packed),
+            Enclosing::Points((ids, count)) if count >= 4 => cache.store(&ids[..count]),
+            Enclosing::AsBefore => {}
+            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count]),
         }
     }
     answer
@@ -95,41 +122,45 @@ pub(super) fn curved(
 /// What a rung found: bounds, and of an overlap the vertices that prove it.
 struct Outcome<R> {
     bounds: Bounds<R>,
-    core: Option<Enclosing>,
+    core: Enclosing,
     rung: Rung,
 }
 
-/// The rungs in `f64`: verify the cached vertices, walk from their features, search.
-#[inline]
+/// The walk from the features of the last answer, and the search where it leads nowhere.
+#[inline(never)]
+fn walk(pair: &Pair<'_, f64>, start: &[Ids], rounding: f64, accuracy: Accuracy, steps: &mut u32) -> Outcome<f64> {
+    let features = [
+        feature(pair.a, start, 0, || pair.in_axes_of_a(&pair.between).to_f64()),
+        feature(pair.b, start, 1, || (-pair.in_axes_of_b(&pair.between)).to_f64()),
+    ];
+    let Some(carriers) = walk::walk(pair, features, steps) else {
+        return find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps);
+    };
+    let mut bounds = Bounds::unknown(carriers);
+    if search::verify(pair, &mut bounds, gap_of(accuracy, SEARCH_GAP) * pair.size, steps) {
+        return Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Walked };
+    }
+    find(pair, &carriers.ids[..carriers.count], &pair.between, rounding, SEARCH_GAP, accuracy, steps)
+}
+
+/// The rungs in `f64` of bodies that were not apart: what enclosed the overlap, and the search.
+#[inline(never)]
 fn climb(
     pair: &Pair<'_, f64>,
     start: &[Ids],
-    inside: bool,
+    surface: Option<&Packed>,
     rounding: f64,
     accuracy: Accuracy,
     steps: &mut u32,
 ) -> Outcome<f64> {
-    let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
-    if inside {
-        if let Some((bounds, core)) = depth::depth_again(pair, start, gap, steps, is_known_inside(pair, accuracy)) {
-            let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
-            return Outcome { bounds, core: Some(core), rung };
-        }
-    } else if (1..=3).contains(&start.len()) {
-        if let Some(bounds) = search::verify(pair, start, gap, steps) {
-            return Outcome { bounds, core: None, rung: Rung::Verified };
-        }
-        let features = [
-            feature(pair.a, start, 0, || pair.in_axes_of_a(&pair.between).to_f64()),
-            feature(pair.b, start, 1, || (-pair.in_axes_of_b(&pair.between)).to_f64()),
-        ];
-        if let Some(carriers) = walk::walk(pair, features, steps) {
-            let carriers = &carriers.ids[..carriers.count];
-            if let Some(bounds) = search::verify(pair, carriers, gap, steps) {
-                return Outcome { bounds, core: None, rung: Rung::Walked };
-            }
-            return find(pair, carriers, &pair.between, rounding, SEARCH_GAP, accuracy, steps);
-        }
+    let (gap, enough) = (gap_of(accuracy, SEARCH_GAP) * pair.size, is_known_inside(pair, accuracy));
+    let mut again = surface.and_then(|packed| depth::depth_on(pair, packed, gap, steps, &enough));
+    if again.is_none() {
+        again = depth::depth_again(pair, start, gap, steps, &enough);
+    }
+    if let Some((bounds, core)) = again {
+        let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
+        return Outcome { bounds, core, rung };
     }
     find(pair, start, &pair.between, rounding, SEARCH_GAP, accuracy, steps)
 }
@@ -141,7 +172,7 @@ fn is_known_apart<R: Real>(
     rounding: f64,
     accuracy: Accuracy,
 ) -> impl Fn(&Bounds<R>) -> bool {
-    let (only_state, error, rounding) = (accuracy == Accuracy::YesNo, R::from(pair.error()), R::from(rounding));
+    let (only_state, error, rounding) = (accuracy == Accuracy::YesNo, R::from(pair.error(0.0)), R::from(rounding));
     move |found| only_state && (found.upper < rounding - error || found.lower > rounding + error)
 }
 
@@ -156,7 +187,7 @@ fn gap_of(accuracy: Accuracy, finest: f64) -> f64 {
 }
 
 /// The signed distance of the cores by distance search and, where they meet, depth.
-fn find<R: Real>(
+fn find<R: Workshop>(
     pair: &impl Difference<R>,
     start: &[Ids],
     toward: &Vec3<R>,
@@ -168,23 +199,42 @@ fn find<R: Real>(
     let gap = gap_of(accuracy, gap) * pair.size();
     let found = search::search(pair, start, toward, gap, steps, is_known_apart(pair, rounding, accuracy));
     let (apart, simplex) = match found {
-        Found::Apart(bounds) => return Outcome { bounds, core: None, rung: Rung::Searched },
+        Found::Apart(bounds) => return Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Searched },
         Found::Open(bounds, simplex) => (Some(bounds), simplex),
         Found::Inside(simplex) => (None, simplex),
     };
-    let (deep, core) = depth::depth(pair, &simplex, gap, steps, is_known_inside(pair, accuracy));
     let width = |b: &Bounds<R>| upper_bound(pair, b) - b.lower;
+    let (deep, core) = overlap(pair, &simplex, gap, steps, accuracy);
     match apart {
-        Some(bounds) if width(&bounds) <= width(&deep) => Outcome { bounds, core: None, rung: Rung::Searched },
-        _ => Outcome { bounds: deep, core: Some(core), rung: Rung::Searched },
+        Some(bounds) if width(&bounds) <= width(&deep) => {
+            Outcome { bounds, core: Enclosing::Nothing, rung: Rung::Searched }
+        }
+        _ => Outcome { bounds: deep, core, rung: Rung::Searched },
     }
+}
+
+/// The depth of the cores: of bodies of revolution about one axis in the plane, of others in space.
+fn overlap<R: Workshop>(
+    pair: &impl Difference<R>,
+    simplex: &Simplex<R>,
+    gap: f64,
+    steps: &mut u32,
+    accuracy: Accuracy,
+) -> (Bounds<R>, Enclosing) {
+    let (axis, enough) = (pair.axis(), is_known_inside(pair, accuracy));
+    if let Some(axis) = axis.filter(|axis| axis.comes_first(pair))
+        && let Some(bounds) = meridian::depth(pair, &axis, R::from(gap), steps, &enough)
+    {
+        return (bounds, Enclosing::Nothing);
+    }
+    depth::depth(pair, simplex, gap, steps, enough)
 }
 
 /// The upper bound that holds, but for the pair's error: a ball around the origin is proved only where its
 /// radius exceeds the error.
 #[inline]
 fn upper_bound<R: Real>(pair: &impl Difference<R>, found: &Bounds<R>) -> R {
-    if found.upper < -R::from(pair.error()) { found.upper } else { found.point.norm() }
+    if found.upper < -R::from(pair.error(0.0)) { found.upper } else { found.point.norm() }
 }
 
 /// The answer in the world, with its interval.
@@ -199,10 +249,12 @@ fn describe<R: Real>(
     rung: Rung,
 ) -> ClosestFeatures {
     // the interval of the cores
-    let (error, upper) = (R::from(pair.error()), upper_bound(pair, found));
+    let upper = upper_bound(pair, found);
+    let bound = pair.error(if found.lower > R::from(0.0) { upper } else { found.lower }.to_f64());
+    let error = R::from(bound);
     let rounding = R::from(views[0].rounding + views[1].rounding);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
-    let certified = is_certified(lower, upper, accuracy, pair.error(), pair.size());
+    let certified = is_certified(lower, upper, accuracy, bound, pair.size());
 
     // both points, joined by the same vector that the distance is taken from
     let simplex = &found.simplex;
@@ -217,8 +269,10 @@ fn describe<R: Real>(
     let core_a = center + on_a.to_vector();
     let core_b = core_a + found.point.to_vector();
     let [feature_a, feature_b] = pair.features(simplex, &found.normal);
+    let signed_distance = (found.normal.dot(&found.point) - rounding).to_f64();
+    debug_assert!(lower <= signed_distance && signed_distance <= upper, "{signed_distance:e} in {lower:e}..{upper:e}");
     ClosestFeatures {
-        signed_distance: (found.normal.dot(&found.point) - rounding).to_f64(),
+        signed_distance,
         lower,
         upper,
         state: state(lower, upper),

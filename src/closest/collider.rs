@@ -19,7 +19,7 @@ use super::vector::Vec3;
 use crate::error::{Error, Result};
 use crate::math::{Pose, Vector3, quaternion};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
-use crate::shape::{HalfSpace, Polyhedron, Shape};
+use crate::shape::{Ellipsoid, HalfSpace, Polyhedron, Shape};
 use crate::tolerance::{COORDINATE_MAX, COORDINATE_MIN};
 
 /// A shape prepared for [`closest_features`](super::closest_features).
@@ -58,6 +58,17 @@ pub(super) enum Core<'a> {
     Round(&'a Round),
 }
 
+/// Whether a core is a body of revolution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Revolution {
+    /// It is not.
+    No,
+    /// About this unit vector, own axes, through its centre.
+    About([f64; 3]),
+    /// About every one: a point.
+    AboutAnything,
+}
+
 impl Core<'_> {
     /// The point that it is centred about, own axes [m].
     pub(super) fn center(&self) -> [f64; 3] {
@@ -72,6 +83,18 @@ impl Core<'_> {
         match self {
             Self::Polyhedron(body) => body.radius(),
             Self::Round(round) => round.reach(),
+        }
+    }
+
+    /// What it is of revolution about.
+    pub(super) fn revolution(&self) -> Revolution {
+        match self {
+            Self::Polyhedron(body) => match body.vertices_about_center() {
+                [_] => Revolution::AboutAnything,
+                [_, _] => Revolution::About(body.edges()[0].direction),
+                _ => Revolution::No,
+            },
+            Self::Round(round) => round.axis().map_or(Revolution::No, Revolution::About),
         }
     }
 
@@ -305,6 +328,9 @@ fn collect(shape: &Shape, place: &str, pose: Option<Pose>, parts: &mut Vec<Part>
                 }
                 Shape::Cylinder(s) => (Round::Cylinder { radius: s.radius, half_height: s.half_height }.into(), 0.0),
                 Shape::Cone(s) => (Round::Cone { radius: s.radius, half_height: s.half_height }.into(), 0.0),
+                Shape::Ellipsoid(Ellipsoid { semi_axes: [a, b, c] }) if a == b && b == c => {
+                    (Body::Ball(core(&[[0.0; 3]])?), *a)
+                }
                 Shape::Ellipsoid(s) => (Round::Ellipsoid { semi_axes: s.semi_axes }.into(), 0.0),
                 Shape::HalfSpace(s) => (Body::HalfSpace(half_space::scaled(s, place)?), 0.0),
                 Shape::Polyhedron(s) => (Body::Polyhedron(convex(s)?), 0.0),

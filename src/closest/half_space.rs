@@ -9,7 +9,8 @@
 use super::answer::{Accuracy, ClosestFeatures, Feature, Rung};
 use super::climb::{is_certified, outward, state};
 use super::collider::{Core, View};
-use super::pair::{Heights, Measure, Stand, from_to, rotate, rotate_back};
+use super::pair::{Heights, Measure, OFF_CENTER_UNITS, Stand, error_of_distance, from_to};
+use super::rotation::{rotate, rotate_back};
 use super::round_pair::ROUND_UNITS;
 use super::vector::Vec3;
 use crate::error::{Error, Result};
@@ -17,9 +18,9 @@ use crate::math::Pose;
 use crate::shape::HalfSpace;
 use crate::tolerance::COORDINATE_MAX;
 
-/// What the plane's own normal costs, in units `u` times the distance of the centres and of the plane
-/// [-]: the division by its length 3, its rotation 22, the quotient `d` 4, the products and sums 6.
-const PLANE_UNITS: f64 = 35.0;
+/// What the plane's own normal costs, in units `u` times the radius and the distance of the centres and
+/// of the plane [-]: 4.5 for the division by its length, 5.5 for its rotation.
+const PLANE_UNITS: f64 = 10.0;
 /// Where the plane's origin is farther from the body than this many radii [-], the heights are taken in
 /// double-double: their rounding would be that of the distance, not of the body.
 const FAR: f64 = 16.0;
@@ -79,8 +80,10 @@ fn answer<R: Heights>(
     let rounding = R::from(view_b.rounding);
     let signed_distance = n.dot(&between) - offset - height - rounding;
 
-    let Measure { size, error } = Measure::new(R::UNIT, core.reach(), distance, [at_a, at_b], ROUND_UNITS);
-    let error = error + R::UNIT * PLANE_UNITS * distance + remote;
+    let Measure { size, error } =
+        Measure::new(R::COST, core.reach(), distance, [at_a, at_b], ROUND_UNITS + OFF_CENTER_UNITS);
+    let error = error + R::COST * PLANE_UNITS * (core.reach() + distance) + remote;
+    let error = error + error_of_distance::<R>(signed_distance.to_f64());
     let (lower, upper) = outward(signed_distance - R::from(error), signed_distance + R::from(error));
     let signed_distance = signed_distance.to_f64();
     let normal = n.to_vector();

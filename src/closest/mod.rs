@@ -20,7 +20,7 @@
 //!
 //! | rung | what is tried |
 //! |---|---|
-//! | [`Rung::Verified`] | the vertices of the last answer, checked by one look around |
+//! | [`Rung::Verified`] | the vertices of the last answer, checked by one look around; apart, up to three are exchanged for what the looks come upon |
 //! | [`Rung::Walked`] | the Lin–Canny walk from the last features, checked the same way |
 //! | [`Rung::Searched`] | search in `f64`: distance by GJK, depth by a growing polytope, supports by climbing |
 //! | [`Rung::DoubleDouble`] | the same in double-double |
@@ -30,9 +30,12 @@
 //! points are found as the search goes; a half space has a closed form. A compound's signed distance is
 //! the least over its pieces: apart, the distance; overlapping, minus the largest depth of two pieces.
 //!
-//! **What is not certified**: a curved body overlapping so that a whole circle or sphere of ways out is
-//! equally deep, such as coaxial cylinders. The interval then is wider, about 1e-4 of the size, it still
-//! holds, and `certified` is false.
+//! Bodies of revolution whose axes are parallel may have a whole circle of ways out that are equally deep,
+//! as coaxial cylinders have: their depth is found in the plane through the axis.
+//!
+//! **What is not certified**: a curved body overlapping so that ways out on a whole curve are all but
+//! equally deep, though no common axis makes them so, such as cylinders at an angle of 1e-6. The interval
+//! then is wider, about 1e-4 of the size, it still holds, and `certified` is false.
 //!
 //! Modules: [`planar`] is the lecture's own two-dimensional walk over Voronoi regions.
 
@@ -42,13 +45,16 @@ mod climb;
 mod collider;
 mod depth;
 mod half_space;
+mod meridian;
 mod pair;
 pub mod planar;
+mod rotation;
 mod round;
 mod round_pair;
 mod search;
 mod simplex;
 mod support;
+mod surface;
 mod vector;
 pub mod vertex_plane;
 mod walk;
@@ -98,22 +104,22 @@ fn query(
 ) -> Result<ClosestFeatures> {
     check(pose_a, "pose_a")?;
     check(pose_b, "pose_b")?;
-    let answer = if a.count() == 1 && b.count() == 1 {
-        pieces((&a.part(0), pose_a), (&b.part(0), pose_b), cache, accuracy)?
+    if a.count() == 1 && b.count() == 1 {
+        pieces((&a.part(0), pose_a), (&b.part(0), pose_b), cache, accuracy)
     } else {
-        compounds(a, pose_a, b, pose_b, cache, accuracy)?
-    };
-    debug_assert!(answer.lower <= answer.signed_distance && answer.signed_distance <= answer.upper, "{answer:?}");
-    Ok(answer)
+        compounds(a, pose_a, b, pose_b, cache, accuracy)
+    }
 }
 
 /// Refuses a pose that places nothing.
 fn check(pose: &Pose, field: &'static str) -> Result<()> {
-    let size = pose.orientation.norm_squared();
+    let q = &pose.orientation;
+    let size = (q.w * q.w + q.i * q.i) + (q.j * q.j + q.k * q.k);
     if !(1e-20..=1e20).contains(&size) {
-        return Err(Error::value("closest features", field, "a pose whose quaternion has a length", pose.orientation));
+        return Err(Error::value("closest features", field, "a pose whose quaternion has a length", q));
     }
-    if !pose.position.iter().all(|x| x.abs() <= COORDINATE_MAX) {
+    let [x, y, z]: [f64; 3] = pose.position.into();
+    if !(x.abs() <= COORDINATE_MAX && y.abs() <= COORDINATE_MAX && z.abs() <= COORDINATE_MAX) {
         return Err(Error::value("closest features", field, "a position within ±1e30", pose.position));
     }
     Ok(())
@@ -211,6 +217,7 @@ fn compounds(
     if let Some(cache) = cache.as_mut() {
         **cache = memory;
     }
+    debug_assert!(lower <= best.signed_distance && best.signed_distance <= upper, "{best:?} in {lower}..{upper}");
     Ok(ClosestFeatures { lower, upper, steps, certified, state: climb::state(lower, upper), ..best })
 }
 

@@ -8,42 +8,53 @@
 //! Vertices are taken about the bodies' centres, world axes, and `t` joins the centres: where both
 //! bodies are in the world does not enter the error.
 //!
-//! **Error bounds.** With `u = ε/2`, `ρ` the radii and `R` the rotation of `q/|q|` as computed,
+//! **Error bounds.** With `u = ε/2`, `ρ` the radii, `t` between the centres, `s` the signed distance, and
+//! `R` the rotation of `q/|q|` as computed; entries of `|R|` taken by size, `‖|R|‖ ≤ √3`:
 //!
 //! ```text
-//! ‖δR‖ ≤ 17 u        k = 2/|q|² to 4 u, which scales R − I (norm ≤ 2): 8 u; products and sums of the
-//!                    entries: 9 u in the ∞-norm and so in the 2-norm
-//! |δ(R v)| ≤ 22 u ρ  and 5 u for the three products and two sums of each component
-//! |δ(n·w)| ≤ 29 u (ρ_A + ρ_B) + 10 u |t|   for a unit n, through either body's axes; of this 1 u ρ for
-//!                    vertices taken about a centre that is not the origin
+//! ‖δR‖ ≤ √3 u          every entry is rounded once: the products of a quaternion's leading parts and
+//!                      their sums are exact, and what is left out is 2⁻²⁶ of that
+//! |δ(R v)| ≤ 5.5 u ρ   √3 for R, √3 for three products, 1 for each of two sums
+//! |δ(n·w)| ≤ 9.5 u (ρ_A + ρ_B) + 5 u |t| + 6.5 u |s|     lower bound: 3 for a dot product, 1 for joining it;
+//!                      t is a difference; n is a unit vector to 4.5; joining, and rounding off the result
+//! |δ|p|| ≤ 9.5 u (ρ_A + ρ_B) + 5 u |t| + 7.5 u |s|        upper bound, apart: 2 for joining both points, 2
+//!                      for their weighted sum; the weights sum to 1 + 3 u
+//! |δ(n·w)| ≤ 10.5 u (ρ_A + ρ_B) + 6 u |t| + 5.5 u |s|     upper bound, overlapping: 2 for joining both
+//!                      points, 3 for the height of a triangle
 //! ```
 //!
 //! so the height of the difference along any direction, and the length of any of its points, are known
-//! to `error`. The same number is charged once to the lower and once to the upper bound of every answer.
-//! A piece of a compound is turned twice: 2 u for its own rotation, 9 u for the product of the two.
+//! to the largest of these. That number is charged once to the lower and once to the upper bound of every
+//! answer. A vertex about a centre that is not the origin is rounded: 1 u. A piece of a compound is turned
+//! twice: 2 u for its own rotation, 9 u for the product of the two.
 //!
 //! A body may be the set of all points within `rounding` of a polyhedron: balls and capsules are. Every
 //! `s(n)` then falls by that radius, and so does the signed distance, whatever the state.
 
 use super::answer::Feature;
+use super::meridian::Axis;
+use super::rotation::{Rotations, precise_rotation, rotate, rotate_back, rotation, rotations};
 use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Quaternion, Vector3};
-use crate::shape::convex_polyhedron::ConvexPolyhedron;
+use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, highest_of, top_of};
 
 /// A vertex of each body.
 pub(super) type Ids = [u32; 2];
 
 /// Bound of rounding in heights and lengths, in units `u` times the radii [-]; see the module.
-const RADII_UNITS: f64 = 29.0;
+const RADII_UNITS: f64 = 10.5;
 /// The same for the distance of the centres [-].
-const CENTERS_UNITS: f64 = 10.0;
+const CENTERS_UNITS: f64 = 6.0;
+/// The same for the distance, and for the depth [-].
+const DISTANCE_UNITS: f64 = 7.5;
+const DEPTH_UNITS: f64 = 5.5;
+/// What vertices about a centre that is not the origin add, in units `u` times the radii [-].
+pub(super) const OFF_CENTER_UNITS: f64 = 1.0;
 /// Relative rounding in the climbed heights of one body, in units `u` [-]: two dot products and the
 /// direction's own rotation cancel from a comparison; what is left is 2 · (3 + 1) u.
 const PLATEAU_UNITS: f64 = 10.0;
-/// Up to this many vertices all are looked at, which costs no more than climbing.
-const SCAN: usize = 16;
 /// Points of an inner polytope [-]: bodies of 100 vertices need 10 to 60; beyond this the depth is given
 /// with the bounds that are proved.
 const POINTS: usize = 1024;
@@ -65,8 +76,8 @@ pub(super) trait Difference<R: Real> {
     /// Both radii and the distance of the centres [m].
     fn size(&self) -> f64;
 
-    /// Bound of the rounding error of a height or a length [m].
-    fn error(&self) -> f64;
+    /// Bound of the rounding error of a height or a length near `distance` [m].
+    fn error(&self, distance: f64) -> f64;
 
     /// Up to how many points an inner polytope is grown.
     fn most_points(&self) -> usize;
@@ -83,6 +94,11 @@ pub(super) trait Difference<R: Real> {
 
     /// The simplex of up to four points of the difference.
     fn simplex(&self, ids: &[Ids]) -> Simplex<R>;
+
+    /// The common axis of two bodies of revolution, where there is one.
+    fn axis(&self) -> Option<Axis<R>> {
+        None
+    }
 
     /// The features of A and B that carry a simplex, for the normal from A to B.
     fn features(&self, simplex: &Simplex<R>, normal: &Vec3<R>) -> [Feature; 2];
@@ -108,7 +124,7 @@ pub(super) struct Placement {
 
 impl Placement {
     pub(super) fn new(pose: &Pose) -> Self {
-        let precise = rows::<DoubleDouble>(&pose.orientation);
+        let precise = precise_rotation(&pose.orientation);
         Self { position: Vec3(pose.position.into()), rows: precise.map(|r| Vec3(r.to_f64())), precise }
     }
 
@@ -133,7 +149,7 @@ impl Stand<'_> {
     /// The rotation of the body's axes.
     #[inline]
     pub(super) fn rows<R: Heights>(&self) -> [Vec3<R>; 3] {
-        let outer = rows(&self.pose.orientation);
+        let outer = R::rotation(&self.pose.orientation);
         let Some(piece) = self.piece else { return outer };
         // each row of the product: the columns of the inner rotation, turned back
         outer.map(|row| rotate_back(R::rows_of(piece), &row))
@@ -146,7 +162,7 @@ impl Stand<'_> {
             Some(piece) => rotate(&piece.precise, &Vec3::new(p)) + Vec3::new(piece.position.0),
             None => Vec3::new(p),
         };
-        rotate(&rows(&self.pose.orientation), &in_pose) + Vec3::new(self.pose.position.into())
+        rotate(&precise_rotation(&self.pose.orientation), &in_pose) + Vec3::new(self.pose.position.into())
     }
 
     /// Where a point of the body is in the world [m].
@@ -157,7 +173,7 @@ impl Stand<'_> {
             None if p == [0.0; 3] => return self.pose.position,
             None => p,
         };
-        rotate(&rows(&self.pose.orientation), &Vec3(in_pose)).to_vector() + self.pose.position
+        rotate(&rotation(&self.pose.orientation), &Vec3(in_pose)).to_vector() + self.pose.position
     }
 }
 
@@ -175,7 +191,14 @@ pub(super) fn from_to(at_a: &Stand<'_>, a: [f64; 3], at_b: &Stand<'_>, b: [f64; 
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
     pub(super) size: f64,
+    /// Bound of the rounding error of a height or a length of about 0 [m].
     pub(super) error: f64,
+}
+
+/// What a signed distance adds to the rounding error of a pair, in units of it [-].
+pub(super) fn error_of_distance<R: Heights>(distance: f64) -> f64 {
+    let units = if distance < 0.0 { DEPTH_UNITS } else { DISTANCE_UNITS };
+    units * R::COST * distance.abs()
 }
 
 impl Measure {
@@ -196,44 +219,14 @@ impl Measure {
 pub(super) struct Pair<'a, R> {
     pub(super) a: &'a ConvexPolyhedron,
     pub(super) b: &'a ConvexPolyhedron,
-    /// Rows of the rotations, body to world.
-    pub(super) rotation_a: [Vec3<R>; 3],
-    pub(super) rotation_b: [Vec3<R>; 3],
+    /// Body to world.
+    pub(super) rotations: Rotations<R>,
     /// From the centre of A to that of B, world axes [m].
     pub(super) between: Vec3<R>,
     /// Both radii and the distance of the centres [m].
     pub(super) size: f64,
-    /// Bound of the rounding error of a height or a length [m].
+    /// Bound of the rounding error of a height or a length of about 0 [m].
     pub(super) error: f64,
-}
-
-/// The rotation `q/|q|` as rows.
-#[inline]
-pub(super) fn rows<R: Real>(q: &Quaternion) -> [Vec3<R>; 3] {
-    let [w, x, y, z] = [q.w, q.i, q.j, q.k].map(R::from);
-    let (one, two) = (R::from(1.0), R::from(2.0));
-    let k = two / ((w * w + x * x) + (y * y + z * z));
-    let (kx, ky, kz) = (k * x, k * y, k * z);
-    let (xx, yy, zz) = (kx * x, ky * y, kz * z);
-    let (xy, xz, yz) = (kx * y, kx * z, ky * z);
-    let (wx, wy, wz) = (kx * w, ky * w, kz * w);
-    [
-        Vec3([one - (yy + zz), xy - wz, xz + wy]),
-        Vec3([xy + wz, one - (xx + zz), yz - wx]),
-        Vec3([xz - wy, yz + wx, one - (xx + yy)]),
-    ]
-}
-
-/// `R v`.
-#[inline]
-pub(super) fn rotate<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
-    Vec3([rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)])
-}
-
-/// `Rᵀ v`.
-#[inline]
-pub(super) fn rotate_back<R: Real>(rows: &[Vec3<R>; 3], v: &Vec3<R>) -> Vec3<R> {
-    rows[0].scaled(v.0[0]) + rows[1].scaled(v.0[1]) + rows[2].scaled(v.0[2])
 }
 
 impl<'a> Pair<'a, f64> {
@@ -273,26 +266,32 @@ impl<'a, R: Heights> Pair<'a, R> {
         remote: f64,
     ) -> Self {
         let (radii, centers) = (a.radius() + b.radius(), Vec3::<f64>(between.to_f64()).norm());
-        let Measure { size, error } = Measure::new(R::UNIT, radii, centers, [at_a, at_b], 0.0);
-        Self { a, b, rotation_a: at_a.rows(), rotation_b: at_b.rows(), between, size, error: error + remote }
+        let extra = if a.is_about_origin() && b.is_about_origin() { 0.0 } else { OFF_CENTER_UNITS };
+        let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], extra);
+        let rotations = if at_a.piece.is_none() && at_b.piece.is_none() {
+            R::rotations(&at_a.pose.orientation, &at_b.pose.orientation)
+        } else {
+            Rotations::of(&at_a.rows(), &at_b.rows())
+        };
+        Self { a, b, rotations, between, size, error: error + remote }
     }
 
     /// A vertex of B about its centre, world axes.
     #[inline]
     pub(super) fn point_b(&self, j: u32) -> Vec3<R> {
-        rotate(&self.rotation_b, &R::vertex(self.b, j as usize))
+        self.rotations.rotate(1, &R::vertex(self.b, j as usize))
     }
 
     /// A direction of the world in the axes of A.
     #[inline]
     pub(super) fn in_axes_of_a(&self, n: &Vec3<R>) -> Vec3<R> {
-        rotate_back(&self.rotation_a, n)
+        self.rotations.rotate_back(0, n)
     }
 
     /// A direction of the world in the axes of B.
     #[inline]
     pub(super) fn in_axes_of_b(&self, n: &Vec3<R>) -> Vec3<R> {
-        rotate_back(&self.rotation_b, n)
+        self.rotations.rotate_back(1, n)
     }
 }
 
@@ -308,8 +307,8 @@ impl<R: Heights> Difference<R> for Pair<'_, R> {
     }
 
     #[inline]
-    fn error(&self) -> f64 {
-        self.error
+    fn error(&self, distance: f64) -> f64 {
+        self.error + error_of_distance::<R>(distance)
     }
 
     fn most_points(&self) -> usize {
@@ -318,9 +317,9 @@ impl<R: Heights> Difference<R> for Pair<'_, R> {
 
     #[inline]
     fn lowest(&self, n: &Vec3<R>, from: Option<Ids>) -> (Ids, R) {
-        let (da, db) = (rotate_back(&self.rotation_a, n), -rotate_back(&self.rotation_b, n));
-        let (i, high_a) = R::farthest(self.a, &da, from.map(|f| f[0]));
-        let (j, high_b) = R::farthest(self.b, &db, from.map(|f| f[1]));
+        let [along_a, along_b] = self.rotations.rotate_back_both(n);
+        let (i, high_a) = R::farthest(self.a, &along_a, from.map(|f| f[0]));
+        let (j, high_b) = R::farthest(self.b, &-along_b, from.map(|f| f[1]));
         ([i, j], n.dot(&self.between) - high_a - high_b)
     }
 
@@ -332,7 +331,7 @@ impl<R: Heights> Difference<R> for Pair<'_, R> {
 
     #[inline]
     fn point_a(&self, i: u32) -> Vec3<R> {
-        rotate(&self.rotation_a, &R::vertex(self.a, i as usize))
+        self.rotations.rotate(0, &R::vertex(self.a, i as usize))
     }
 
     /// Neighbouring pairs often share a vertex, which is then placed once.
@@ -365,6 +364,15 @@ impl<R: Heights> Difference<R> for Pair<'_, R> {
 
 /// How vertices are read and the farthest is found in either precision.
 pub(super) trait Heights: Real {
+    /// Bound of the relative error that the module's units stand for [-].
+    const COST: f64;
+
+    /// The rotation `q/|q|` as rows.
+    fn rotation(q: &Quaternion) -> [Vec3<Self>; 3];
+
+    /// Those of two.
+    fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<Self>;
+
     /// A vertex about the body's centre, body axes.
     fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<Self>;
 
@@ -376,6 +384,17 @@ pub(super) trait Heights: Real {
 }
 
 impl Heights for f64 {
+    const COST: f64 = Self::UNIT;
+
+    fn rotation(q: &Quaternion) -> [Vec3<f64>; 3] {
+        rotation(q)
+    }
+
+    #[inline]
+    fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
+        rotations(a, b)
+    }
+
     #[inline]
     fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<f64> {
         Vec3(body.vertices_about_center()[k])
@@ -392,77 +411,56 @@ impl Heights for f64 {
     #[inline]
     fn farthest(body: &ConvexPolyhedron, d: &Vec3<f64>, from: Option<u32>) -> (u32, f64) {
         let vertices = body.vertices_about_center();
-        let height = |v: &[f64; 3]| v[0] * d.0[0] + v[1] * d.0[1] + v[2] * d.0[2];
         if vertices.len() <= SCAN {
-            return highest(vertices, height);
+            return highest(body.blocks(), &d.0);
         }
 
-        // uphill, remembering the highest neighbour of the top
+        // uphill, remembering how high the highest neighbour of the top is
         let mut at = from.unwrap_or_else(|| u32::try_from(body.seed_for(&d.0)).unwrap_or(0));
-        let mut top = height(&vertices[at as usize]);
-        let mut runner_up;
-        loop {
-            let mut best = at;
-            runner_up = f64::MIN;
-            for (k, v) in body.ring_points(at as usize) {
-                let h = height(v);
-                if h > top {
-                    (top, best) = (h, k);
-                }
-                runner_up = if h > runner_up { h } else { runner_up };
+        let mut top = Vec3(vertices[at as usize]).dot(d);
+        let runner_up = loop {
+            let ring = body.ring_blocks(at as usize);
+            let height = top_of(ring, &d.0);
+            if height <= top {
+                break height;
             }
-            if best == at {
-                break;
-            }
-            at = best;
-        }
+            (at, top) = highest(ring, &d.0);
+        };
 
         // |d|₁ ≥ |d|
         let slack = PLATEAU_UNITS * Self::UNIT * body.radius() * (d.0[0].abs() + d.0[1].abs() + d.0[2].abs());
-        if runner_up < top - slack { (at, top) } else { plateau_top(body, at, top, slack, height) }
+        if runner_up < top - slack { (at, top) } else { plateau_top(body, at, top, top - slack, &d.0) }
     }
 }
 
-/// The highest of all vertices.
-#[inline]
-fn highest(vertices: &[[f64; 3]], height: impl Fn(&[f64; 3]) -> f64) -> (u32, f64) {
-    let mut top = (0, f64::MIN);
-    for (k, v) in (0..).zip(vertices) {
-        let h = height(v);
-        if h > top.1 {
-            top = (k, h);
-        }
-    }
-    top
-}
-
-/// The highest of the vertices that hang together with the top at heights within `slack` of it.
-fn plateau_top(
-    body: &ConvexPolyhedron,
-    at: u32,
-    top: f64,
-    slack: f64,
-    height: impl Fn(&[f64; 3]) -> f64,
-) -> (u32, f64) {
+/// The highest of the vertices that hang together with the top at heights from `floor` on.
+#[inline(never)]
+#[expect(clippy::manual_contains, reason = "of two or three, which `contains` is too wide for")]
+fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, floor: f64, d: &[f64; 3]) -> (u32, f64) {
     let mut seen = [at; PLATEAU];
     let (mut count, mut next) = (1, 0);
     let mut best = (at, top);
-    let floor = top - slack;
     while next < count {
-        for (k, v) in body.ring_points(seen[next] as usize) {
-            let h = height(v);
-            if h < floor || seen[..count].contains(&k) {
+        for block in body.ring_blocks(seen[next] as usize) {
+            let heights = block.heights(d);
+            if highest_of(&heights) < floor {
                 continue;
             }
-            if h > best.1 {
-                best = (k, h);
+            for (lane, &h) in heights.iter().enumerate() {
+                let k = block.ids()[lane];
+                if h < floor || seen[..count].iter().any(|&known| known == k) {
+                    continue;
+                }
+                if h > best.1 {
+                    best = (k, h);
+                }
+                if count == PLATEAU {
+                    // a large flat face: look at all
+                    return highest(body.blocks(), d);
+                }
+                seen[count] = k;
+                count += 1;
             }
-            if count == PLATEAU {
-                // a large flat face: look at all
-                return highest(body.vertices_about_center(), height);
-            }
-            seen[count] = k;
-            count += 1;
         }
         next += 1;
     }
@@ -470,6 +468,17 @@ fn plateau_top(
 }
 
 impl Heights for DoubleDouble {
+    /// Its rotation is not as finely made: 17 units in place of √3, below four times all bounds.
+    const COST: f64 = 4.0 * Self::UNIT;
+
+    fn rotation(q: &Quaternion) -> [Vec3<Self>; 3] {
+        precise_rotation(q)
+    }
+
+    fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<Self> {
+        Rotations::of(&precise_rotation(a), &precise_rotation(b))
+    }
+
     /// As given, less the centre: without rounding.
     fn vertex(body: &ConvexPolyhedron, k: usize) -> Vec3<Self> {
         let (v, c) = (body.vertices()[k], body.center());
@@ -516,6 +525,11 @@ pub(super) fn feature(body: &ConvexPolyhedron, pairs: &[Ids], side: usize, outwa
         && let Some(e) = body.edge_between(distinct[0] as usize, distinct[1] as usize)
     {
         return Feature::Edge(u32::try_from(e).unwrap_or(u32::MAX));
+    }
+    if count == 3
+        && let Some(f) = body.triangle(&distinct)
+    {
+        return Feature::Face(f);
     }
     let holds_all = |f: &u32| distinct[1..count].iter().all(|&v| body.faces_at(v as usize).contains(f));
     let mut candidates = body.faces_at(distinct[0] as usize).iter().copied().filter(holds_all);

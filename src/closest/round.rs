@@ -33,6 +33,17 @@ impl Round {
         }
     }
 
+    /// The unit vector that it is of revolution about, if it is.
+    pub(super) fn axis(&self) -> Option<[f64; 3]> {
+        match *self {
+            Self::Cylinder { .. } | Self::Cone { .. } => Some([0.0, 0.0, 1.0]),
+            Self::Ellipsoid { semi_axes: [a, b, _] } if a == b => Some([0.0, 0.0, 1.0]),
+            Self::Ellipsoid { semi_axes: [a, _, c] } if a == c => Some([0.0, 1.0, 0.0]),
+            Self::Ellipsoid { semi_axes: [_, b, c] } if b == c => Some([1.0, 0.0, 0.0]),
+            Self::Ellipsoid { .. } => None,
+        }
+    }
+
     /// A point farthest along `d` and how far it reaches, `d · p`.
     pub(super) fn support<R: Real>(&self, d: &Vec3<R>) -> (Vec3<R>, R) {
         let (zero, one) = (R::from(0.0), R::from(1.0));

@@ -7,19 +7,23 @@
 use std::cell::RefCell;
 
 use super::answer::Feature;
-use super::collider::Core;
-use super::pair::{Difference, Heights, Ids, Measure, Stand, from_to, rotate, rotate_back};
+use super::collider::{Core, Revolution};
+use super::meridian::{Axis, unit};
+use super::pair::{Difference, Heights, Ids, Measure, OFF_CENTER_UNITS, Stand, error_of_distance, from_to};
+use super::rotation::{rotate, rotate_back};
 use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 
-/// What a curved body's height costs beyond a polyhedron's, in units `u` times the radii [-]: 5 for the
-/// height, 4 for the point, less the 5 of the three products that it replaces, and 1 to spare.
-pub(super) const ROUND_UNITS: f64 = 5.0;
-/// Points of an inner polytope [-]: an overlap with one way out needs 30 to 400. Where a whole circle of
-/// ways out is equally deep, as between coaxial cylinders, no number suffices, and the depth is given
-/// with the bounds that are proved.
+/// What a curved body's height and point cost beyond a polyhedron's, in units `u` times the radii [-]: its
+/// height is right to 5 in place of 3, its point to 4 in place of 0.
+pub(super) const ROUND_UNITS: f64 = 4.0;
+/// Points of an inner polytope [-]: an overlap with one way out needs 30 to 400. Where ways out on a whole
+/// curve are equally deep no number suffices, and the depth is given with the bounds that are proved.
 const POINTS: usize = 640;
+/// Axes at a smaller angle than this [rad] count as parallel; what the angle may move is added to the upper
+/// bound. Larger: wider intervals where the search in space would have found narrower ones.
+const NEARLY_PARALLEL: f64 = 1e-9;
 /// Points that are kept without asking for memory [-]: a search for the distance finds 4 to 30.
 const AT_HAND: usize = 32;
 
@@ -54,6 +58,7 @@ pub(super) struct RoundPair<'a, R> {
     between: Vec3<R>,
     size: f64,
     error: f64,
+    axis: Option<Axis<R>>,
     found: RefCell<List<R>>,
 }
 
@@ -103,9 +108,34 @@ impl<'a> RoundPair<'a, DoubleDouble> {
 impl<'a, R: Heights> RoundPair<'a, R> {
     fn assemble(a: Core<'a>, at_a: &Stand<'_>, b: Core<'a>, at_b: &Stand<'_>, between: Vec3<R>, remote: f64) -> Self {
         let (radii, centers) = (a.reach() + b.reach(), Vec3::<f64>(between.to_f64()).norm());
-        let Measure { size, error } = Measure::new(R::UNIT, radii, centers, [at_a, at_b], ROUND_UNITS);
+        let Measure { size, error } =
+            Measure::new(R::COST, radii, centers, [at_a, at_b], ROUND_UNITS + OFF_CENTER_UNITS);
+        let axis = common_axis((&a, at_a), (&b, at_b));
         let (a, b) = (Body { core: a, rotation: at_a.rows() }, Body { core: b, rotation: at_b.rows() });
-        Self { a, b, between, size, error: error + remote, found: RefCell::new(List::new()) }
+        Self { a, b, between, size, error: error + remote, axis, found: RefCell::new(List::new()) }
+    }
+}
+
+/// The common axis of two bodies of revolution, if their axes are parallel: what is left of an angle is
+/// worked out in double-double.
+fn common_axis<R: Heights>((a, at_a): (&Core<'_>, &Stand<'_>), (b, at_b): (&Core<'_>, &Stand<'_>)) -> Option<Axis<R>> {
+    use Revolution::{About, AboutAnything, No};
+    let turned = |at: &Stand<'_>, axis| unit(&rotate(&at.rows::<R>(), &Vec3::new(axis)));
+    match (a.revolution(), b.revolution()) {
+        (About(z), About(other)) => {
+            let along = turned(at_a, z);
+            if turned(at_b, other).cross(&along).norm().to_f64() > NEARLY_PARALLEL {
+                return None;
+            }
+            let precisely = |at: &Stand<'_>, axis| unit(&rotate(&at.rows::<DoubleDouble>(), &Vec3::new(axis)));
+            let tilt = precisely(at_b, other).cross(&precisely(at_a, z)).norm().to_f64();
+            // the tilt itself is right to a few units of double-double
+            let off = (tilt * (1.0 + 4.0 * f64::EPSILON) + 32.0 * DoubleDouble::UNIT) * b.reach();
+            Some(Axis { along, off, is_any: false })
+        }
+        (About(z), AboutAnything) => Some(Axis { along: turned(at_a, z), off: 0.0, is_any: true }),
+        (AboutAnything, About(z)) => Some(Axis { along: turned(at_b, z), off: 0.0, is_any: true }),
+        (No, _) | (_, No) | (AboutAnything, AboutAnything) => None,
     }
 }
 
@@ -134,12 +164,16 @@ impl<R: Heights> Difference<R> for RoundPair<'_, R> {
         self.size
     }
 
-    fn error(&self) -> f64 {
-        self.error
+    fn error(&self, distance: f64) -> f64 {
+        self.error + error_of_distance::<R>(distance)
     }
 
     fn most_points(&self) -> usize {
         POINTS
+    }
+
+    fn axis(&self) -> Option<Axis<R>> {
+        self.axis
     }
 
     fn lowest(&self, n: &Vec3<R>, from: Option<Ids>) -> (Ids, R) {

@@ -16,6 +16,9 @@ use crate::math::double_double::Real;
 
 /// Rounds after which the search ends with what it has [-]: random pairs take 3 to 15.
 const ROUNDS: u32 = 96;
+/// Vertices that a verification takes in before it gives the pair to the walk [-]: a step of coherent
+/// motion changes one or two.
+const EXCHANGES: u32 = 3;
 
 /// What the search proved.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +45,15 @@ pub(super) struct Bounds<R> {
     pub(super) upper: R,
 }
 
+impl<R: Real> Bounds<R> {
+    /// A simplex of which nothing is known yet.
+    #[inline]
+    pub(super) fn unknown(simplex: Simplex<R>) -> Self {
+        let zero = R::from(0.0);
+        Self { simplex, point: Vec3::zero(), normal: Vec3::zero(), lower: zero, upper: zero }
+    }
+}
+
 /// Searches from the given points of the difference; without any, from the one against `toward`.
 pub(super) fn search<R: Real>(
     pair: &impl Difference<R>,
@@ -60,7 +72,7 @@ pub(super) fn search<R: Real>(
     }
 
     let gap = R::from(gap);
-    let noise = R::from(pair.error());
+    let noise = R::from(pair.error(0.0));
     let mut best: Option<Bounds<R>> = None;
     let mut closed = false;
     let mut last: ([Ids; 4], usize) = Default::default();
@@ -109,24 +121,30 @@ pub(super) fn search<R: Real>(
     }
 }
 
-/// Bounds from the given points of the difference, if one look around shows that they still carry the
-/// closest point.
+/// Whether the points of the simplex still carry the closest point, or others that the looks around come
+/// upon do, after at most [`EXCHANGES`] of them. If so, the bounds are those of the answer.
 #[inline]
-pub(super) fn verify<R: Real>(
-    pair: &impl Difference<R>,
-    start: &[Ids],
-    gap: f64,
-    steps: &mut u32,
-) -> Option<Bounds<R>> {
-    *steps += 1;
-    let mut simplex = pair.simplex(start);
-    let Closest::At { point, normal } = simplex.reduce() else { return None };
-    let (upper, length) = (point.norm(), normal.norm());
-    if upper <= R::from(pair.error()) || length == R::from(0.0) {
-        return None;
+pub(super) fn verify<R: Real>(pair: &impl Difference<R>, found: &mut Bounds<R>, gap: f64, steps: &mut u32) -> bool {
+    let Bounds { simplex, .. } = found;
+    for _ in 0..=EXCHANGES {
+        *steps += 1;
+        let Closest::At { point, normal } = simplex.reduce() else { return false };
+        let (upper, length) = (point.norm(), normal.norm());
+        if upper <= R::from(pair.error(0.0)) || length == R::from(0.0) {
+            return false;
+        }
+        let (ids, height) = pair.lowest(&normal, Some(simplex.ids[0]));
+        let one_over = R::from(1.0) / length;
+        let lower = height * one_over;
+        if upper - lower <= R::from(gap) {
+            (found.point, found.normal) = (point, normal.scaled(one_over));
+            (found.lower, found.upper) = (lower, upper);
+            return true;
+        }
+        if simplex.contains(ids) {
+            return false;
+        }
+        simplex.push(ids, pair.difference(ids));
     }
-    let (_, height) = pair.lowest(&normal, Some(simplex.ids[0]));
-    let one_over = R::from(1.0) / length;
-    let lower = height * one_over;
-    (upper - lower <= R::from(gap)).then(|| Bounds { simplex, point, normal: normal.scaled(one_over), lower, upper })
+    false
 }

@@ -3,10 +3,11 @@
 use super::answer::{Accuracy, ClosestFeatures};
 use super::cache::PairCache;
 use super::collider::{Collidable, Core, Solid, View};
-use super::pair::rotate_back;
+use super::rotation::rotate_back;
 use super::vector::Vec3;
 use crate::error::Result;
 use crate::math::{Pose, Vector3};
+use crate::shape::convex_polyhedron::{SCAN, top_of};
 
 /// A convex piece of a body, in the axes of the whole.
 #[derive(Debug, Clone, Copy)]
@@ -59,7 +60,7 @@ impl Piece<'_> {
             Solid::Core(Core::Polyhedron(body)) => {
                 let vertices = body.vertices_about_center();
                 if vertices.len() <= SCAN {
-                    return vertices.iter().map(|v| Vec3(*v).dot(&d)).fold(f64::NEG_INFINITY, f64::max);
+                    return top_of(body.blocks(), &d.0);
                 }
                 let start = if (*from as usize) < vertices.len() { *from as usize } else { 0 };
                 let top = body.climb(start, &d.0);
@@ -105,6 +106,3 @@ impl Piece<'_> {
         super::pieces((&self.view, pose), (&other.view, other_pose), Some(cache), accuracy)
     }
 }
-
-/// Up to this many vertices all are looked at, which costs no more than climbing.
-const SCAN: usize = 16;

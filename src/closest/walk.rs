@@ -243,9 +243,8 @@ impl Walk<'_> {
         }
         let face = &body.faces()[f as usize];
         let height = Vec3(face.normal).dot(&d) - face.offset;
-        let rows = if matches!(side, Side::A) { &self.pair.rotation_a } else { &self.pair.rotation_b };
-        let n = Vec3(face.normal);
-        let foot = p - Vec3([rows[0].dot(&n), rows[1].dot(&n), rows[2].dot(&n)]).scaled(height);
+        let n = self.pair.rotations.rotate(usize::from(matches!(side, Side::B)), &Vec3(face.normal));
+        let foot = p - n.scaled(height);
         let (features, points) = match side {
             Side::A => ([Face(f), Vertex(other)], [foot, p]),
             Side::B => ([Vertex(other), Face(f)], [p, foot]),

@@ -32,7 +32,7 @@ pub(crate) fn assert_is_right(answer: &ClosestFeatures, truth: &oracle::Truth, s
     assert!(answer.certified, "{label}: not certified {answer:?}, truth {d:e}");
     assert!(answer.lower <= d && d <= answer.upper, "{label}: {d:e} is not in the interval of {answer:?}");
     let width = answer.upper - answer.lower;
-    assert!(width <= 36.0 * f64::EPSILON * size, "{label}: width {width:e}, {answer:?}");
+    assert!(width <= 16.0 * f64::EPSILON * size, "{label}: width {width:e}, {answer:?}");
     let error = (answer.signed_distance - d).abs();
     assert!(error <= 2e-15 * size, "{label}: error {error:e}, {answer:?}, truth {d:e}");
     let side = match answer.state {

@@ -216,3 +216,42 @@ fn an_unused_vertex_is_left_out() {
     let faces = [[1, 3, 2], [1, 2, 4], [2, 3, 4], [1, 4, 3]].map(Vec::from);
     expect(query(Polyhedron::new(vertices, faces), &at(0.0, 0.0, 0.0), Sphere::new(1.0), &at(0.0, 0.0, 4.0)), 2.0);
 }
+
+/// Where a whole circle of ways out is equally deep: bodies of revolution about one axis. The sum of two
+/// cylinders is a cylinder, that of a cone and a cylinder has the cone's slope.
+#[test]
+fn bodies_about_one_axis() {
+    let (r, h, p, q) = (1.0, 4.0, 0.5, 3.0);
+    let (wide, thin) = (Cylinder::new(r, h), Cylinder::new(p, q));
+    // side by side, through the caps, on the axis, upside down
+    let found = expect(query(wide, &at(0.0, 0.0, 0.0), thin, &at(0.0, 0.0, 0.0)), -1.5);
+    assert_eq!((found.feature_a, found.feature_b), (Feature::Surface(0), Feature::Surface(0)));
+    expect(query(wide, &at(0.0, 0.0, 0.0), thin, &at(0.25, 0.0, 0.5)), -1.25);
+    expect(query(wide, &at(0.0, 0.0, 0.0), thin, &at(1e-9, 0.0, 0.0)), 1e-9 - 1.5);
+    let found = expect(query(wide, &at(0.0, 0.0, 0.0), thin, &at(0.25, 0.0, 6.5)), -0.5);
+    assert_eq!((found.feature_a, found.feature_b), (Feature::Face(1), Feature::Face(0)));
+    let turned = |x: f64, y: f64, z: f64| Pose::new([x, y, z], [0.0, 0.6, 0.8, 0.0]);
+    expect(query(wide, &at(0.0, 0.0, 0.0), thin, &turned(0.0, 0.0, 0.0)), -1.5);
+
+    // the same, turned and moved together
+    let whole = Pose::new([10.0, -7.0, 3.0], [0.3, -0.5, 0.7, 0.4]);
+    let place = |p: Pose| Pose { position: whole.point(&p.position), orientation: whole.orientation * p.orientation };
+    for offset in [0.0, 1e-12, 1e-6, 0.01, 0.3] {
+        let found = query(wide, &whole, thin, &place(at(offset, 0.0, 0.5)));
+        assert!((found.signed_distance - (offset - 1.5)).abs() <= 1e-14 && found.certified, "{offset:e} {found:?}");
+    }
+
+    // a ball, a capsule and a spheroid on the axis
+    expect(query(wide, &at(0.0, 0.0, 0.0), Sphere::new(0.25), &at(0.0, 0.0, 0.5)), -1.25);
+    expect(query(wide, &at(0.0, 0.0, 0.0), Capsule::new(0.25, 0.5), &at(0.0, 0.0, 0.5)), -1.25);
+    expect(query(wide, &at(0.0, 0.0, 0.0), Ellipsoid::new([0.25, 0.25, 0.75]), &at(0.0, 0.0, 0.5)), -1.25);
+    expect(query(Ellipsoid::new([0.5, 0.5, 2.0]), &at(0.0, 0.0, 0.0), Sphere::new(0.25), &at(0.0, 0.0, 0.0)), -0.75);
+    expect(query(Ellipsoid::new([1.0; 3]), &at(0.0, 0.0, 0.0), Ellipsoid::new([0.5; 3]), &at(0.0, 0.0, 0.0)), -1.5);
+
+    // rise 4 over radius 3: the side's normal is (4, 3)/5 across and along, at height 2 · 3/5 of the middle
+    let cone = Cone::new(3.0, 2.0);
+    expect(query(cone, &at(0.0, 0.0, 0.0), Sphere::new(0.125), &at(0.0, 0.0, 0.0)), -1.325);
+    expect(query(cone, &at(0.0, 0.0, 0.0), Cylinder::new(0.25, 0.5), &at(0.0, 0.0, 0.0)), -(1.2 + 0.2 + 0.3));
+    // along the side's normal 1.2 + 3.6, along the axis 2 + 2
+    expect(query(cone, &at(0.0, 0.0, 0.0), cone, &at(0.0, 0.0, 0.0)), -4.0);
+}

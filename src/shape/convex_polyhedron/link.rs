@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::vector::{add, area_vector, cross, dot, norm, sub, unit};
-use super::{ConvexPolyhedron, Edge, Face, HalfEdge, NONE};
+use super::{Block, ConvexPolyhedron, Edge, Face, HalfEdge, NONE};
 
 impl ConvexPolyhedron {
     /// Rings, half-edges, faces and the walls of the Voronoi regions.
@@ -24,7 +24,14 @@ impl ConvexPolyhedron {
         pairs.sort_unstable();
         pairs.dedup();
         (self.ring_start, self.ring) = grouped(count, &pairs);
-        self.ring_points = self.ring.iter().map(|&k| self.about_center[k as usize]).collect();
+        let all: Vec<u32> = (0..).take(count).collect();
+        self.blocks = Block::of(&self.about_center, &all);
+        self.ring_block_start.push(0);
+        for vertex in 0..count {
+            let ring = Block::of(&self.about_center, self.ring(vertex));
+            self.ring_blocks.extend(ring);
+            self.ring_block_start.push(u32::try_from(self.ring_blocks.len()).unwrap_or(NONE));
+        }
 
         // half-edges, the twins next to each other
         let mut half_edge_of: BTreeMap<(u32, u32), u32> = BTreeMap::new();

@@ -5,7 +5,8 @@
 //!
 //! ```text
 //! vertices   as given, and about the body's centre, so that a far origin costs no digits
-//! ring       the neighbours of each vertex on the hull's triangles: hill climbing is exact on it
+//! ring       the neighbours of each vertex on the hull's triangles, in fours with their coordinates: hill
+//!            climbing is exact on it
 //! faces      polygons: coplanar triangles merged; unit normal, offset, and how far the polygon is from flat
 //! half-edges two to an edge (twin = h ^ 1), each once around its face
 //! planes     one per edge and end, one per half-edge: the walls between Voronoi regions, each stored
@@ -15,6 +16,7 @@
 //! Polygons, segments and points (rank 2, 1, 0) are convex polyhedra too: a polygon has two faces
 //! back to back, a segment one edge and no face.
 
+mod blocks;
 mod directions;
 mod link;
 mod polygons;
@@ -23,9 +25,13 @@ mod vector;
 use crate::error::{Error, Result};
 use crate::shape::hull;
 use crate::tolerance::{COORDINATE_MAX, COORDINATE_MIN, FACE_FLATNESS};
+pub(crate) use blocks::{Block, highest, highest_of, top_of};
 use directions::{cells_per_side, cube_cell};
 use polygons::polygons;
 use vector::{add, area_vector, dot, norm, sub, unit};
+
+/// Up to this many vertices all are looked at, which costs no more than climbing.
+pub(crate) const SCAN: usize = 16;
 
 /// No such index.
 const NONE: u32 = u32::MAX;
@@ -41,7 +47,9 @@ pub struct ConvexPolyhedron {
     sources: Vec<u32>,
     ring_start: Vec<u32>,
     ring: Vec<u32>,
-    ring_points: Vec<[f64; 3]>,
+    blocks: Vec<Block>,
+    ring_block_start: Vec<u32>,
+    ring_blocks: Vec<Block>,
     faces: Vec<Face>,
     half_edges: Vec<HalfEdge>,
     edges: Vec<Edge>,
@@ -149,7 +157,9 @@ impl ConvexPolyhedron {
             about_center,
             ring_start: Vec::new(),
             ring: Vec::new(),
-            ring_points: Vec::new(),
+            blocks: Vec::new(),
+            ring_block_start: Vec::new(),
+            ring_blocks: Vec::new(),
             faces: Vec::new(),
             half_edges: Vec::new(),
             edges: Vec::new(),
@@ -241,11 +251,16 @@ impl ConvexPolyhedron {
         &self.ring[self.ring_start[vertex] as usize..self.ring_start[vertex + 1] as usize]
     }
 
-    /// The neighbours of a vertex with their coordinates about the centre, side by side in memory.
+    /// All vertices in fours.
     #[inline]
-    pub(crate) fn ring_points(&self, vertex: usize) -> impl Iterator<Item = (u32, &[f64; 3])> {
-        let range = self.ring_start[vertex] as usize..self.ring_start[vertex + 1] as usize;
-        self.ring[range.clone()].iter().copied().zip(&self.ring_points[range])
+    pub(crate) fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// The neighbours of a vertex in fours.
+    #[inline]
+    pub(crate) fn ring_blocks(&self, vertex: usize) -> &[Block] {
+        &self.ring_blocks[self.ring_block_start[vertex] as usize..self.ring_block_start[vertex + 1] as usize]
     }
 
     /// The faces.
@@ -302,17 +317,11 @@ impl ConvexPolyhedron {
         let mut at = from;
         let mut height = dot(&self.about_center[at], direction);
         loop {
-            let mut best = at;
-            for (k, v) in self.ring_points(at) {
-                let h = dot(v, direction);
-                if h > height {
-                    (height, best) = (h, k as usize);
-                }
-            }
-            if best == at {
+            let (next, h) = highest(self.ring_blocks(at), direction);
+            if h <= height {
                 return at;
             }
-            at = best;
+            (at, height) = (next as usize, h);
         }
     }
 
@@ -323,6 +332,24 @@ impl ConvexPolyhedron {
             return 0;
         }
         self.seeds[cube_cell(direction, cells_per_side(self.about_center.len()))] as usize
+    }
+
+    /// The face of a solid that has these three vertices and no more, if there is one.
+    #[inline]
+    pub(crate) fn triangle(&self, corners: &[u32]) -> Option<u32> {
+        let &[i, j, k, ..] = corners else { return None };
+        if self.rank < 3 {
+            return None;
+        }
+        let range = self.leaving_start[i as usize] as usize..self.leaving_start[i as usize + 1] as usize;
+        let side = self.leaving_to[range.clone()].iter().position(|&v| v == j)?;
+        let h = self.leaving[range.start + side];
+        [h, h ^ 1].into_iter().find_map(|h| {
+            let last = self.half_edges[self.half_edges[h as usize].next as usize];
+            let third = self.half_edges[last.next as usize];
+            let closes = third.next == h && third.origin == k;
+            last.face.filter(|_| closes)
+        })
     }
 
     /// The edge between two vertices, if there is one.
