@@ -99,7 +99,9 @@ def bryla_queries(a, b, x, q):
 
 def main():
     """Prints the table."""
-    print(f"coal {coal.__version__}, bryla {bryla.__version__}, Python {platform.python_version()}, {time.strftime('%F')}")
+    print(
+        f"coal {coal.__version__}, bryla {bryla.__version__}, Python {platform.python_version()}, {time.strftime('%F')}"
+    )
     ball = coal.Sphere(0.1)
     print("| regime | motion | vertices | bryla ns | coal ns | ratio | largest difference |")
     print("|---|---|---|---|---|---|---|")

@@ -98,7 +98,7 @@ def test_the_command_line_runs(die, tmp_path):
 
 def test_the_summary_shows_the_first_events(tmp_path):
     scene = bryla.Scene()
-    scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1)), freedom="fixed"))
+    scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1), 0), fixed=True))
     scene.add(bryla.Body("ball", bryla.Sphere(0.1), density=500, position=(0, 0, 0.5), restitution=0.95))
     scene.add_effect(bryla.UniformGravity())
     scene.run_options = {"t_span": [0, 10], "estimate": False}

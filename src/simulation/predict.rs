@@ -160,7 +160,7 @@ mod tests {
             assert!(called.load(Ordering::Relaxed) >= 16, "{options:?}: not called");
             assert!(predicted.run > 0.0 && predicted.estimate > 0.0, "{predicted:?}");
             let ratio = predicted.steps / plan.run(span).unwrap().report().counts.steps as f64;
-            assert!((0.5..2.0).contains(&ratio), "{options:?}: {predicted:?}");
+            assert!((0.5..2.0).contains(&ratio), "{options:?}: {ratio:.2} times what was taken, {predicted:?}");
         }
 
         scene.add_effect(UserEffect::new(|_, _| Err("no".into())));

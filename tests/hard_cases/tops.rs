@@ -8,7 +8,7 @@ fn case(name: &str) -> Case {
     recorded::driven().into_iter().find(|case| case.name == name).unwrap()
 }
 
-/// Largest change of a quantity of γ = Rᵀ e_z and L (body axes) over 10 s.
+/// Largest change of a quantity of `γ = Rᵀ e_z` and L (body axes) over the samples of a run.
 fn change(case: &Case, run: &Trajectory, of: impl Fn(Vector3, Vector3) -> f64) -> f64 {
     let at = |sample: usize| {
         let q = run.states(sample)[0].orientation;
