@@ -210,7 +210,7 @@ struct Grain {
 }
 
 /// What the numbers at the start may be off by in the coarser of two passes [-].
-const NUDGE: f64 = f64::EPSILON;
+const NUDGE: f64 = 4.0 * f64::EPSILON;
 
 impl Grain {
     /// What the options say.
