@@ -217,7 +217,8 @@
 //! 4 ε for every radian turned.
 //!
 //! All runs round the moments of inertia and the start alike, and an unstable motion magnifies that: where bodies meet
-//! nothing, the coarser runs start with numbers that are a few ε off, so that their differences show it.
+//! nothing and loads have no kinks, the coarser runs start with numbers that are a few ε off, so that their differences
+//! show it.
 //!
 //! A second measure costs no run: the energy audit of
 //! [`Trajectory::energy`](crate::trajectory::Trajectory::energy). Kinetic + potential + dissipated − work should stay;

@@ -206,6 +206,7 @@ struct Grain {
     step: f64,
     /// By how much the numbers at the start of what is integrated and meets nothing are off, as a part of each [-]: as
     /// the roundings that all passes have in common, such as those of moments of inertia, a motion may magnify them.
+    /// Where loads have kinks it is 0: passes share steps, and those end on the kinks.
     nudge: f64,
 }
 
@@ -266,7 +267,7 @@ impl Simulation {
         for (group, spec) in plan.groups().iter().enumerate() {
             let charts = plan.charts(group, &[])?;
             let mut motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            if grain.nudge > 0.0 && !spec.meets && spec.method != Method::Exact {
+            if grain.nudge > 0.0 && !spec.meets && !spec.has_kinks && spec.method != Method::Exact {
                 charts.iter().zip(&mut motions).for_each(|(chart, motion)| nudge(chart, motion, grain.nudge));
             }
             let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
