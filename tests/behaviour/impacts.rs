@@ -3,45 +3,19 @@
 //! Tolerances are relative to the case's own speeds, sizes and times: 1e-9 of a result, 1e-12 of energy and momentum of
 //! elastic impacts, and 1e-12 of speed over size for a spin where none may be.
 
+use super::meeting::{close, last, run, scene};
 use bryla::math::Vector3;
-use bryla::{
-    Body, BodyMotion, Cuboid, EventKind, HalfSpace, RunError, RunOptions, Scene, Sphere, Trajectory, UniformGravity,
-};
+use bryla::{Body, BodyMotion, Cuboid, EventKind, HalfSpace, RunError, RunOptions, Sphere, Trajectory, UniformGravity};
 
 const TIGHT: f64 = 1e-12;
 const CLOSE: f64 = 1e-9;
-
-fn scene(bodies: impl IntoIterator<Item = Body>) -> Scene {
-    let mut scene = Scene::new();
-    for body in bodies {
-        scene.add(body).unwrap();
-    }
-    scene
-}
 
 fn floor() -> Body {
     Body::new("floor", HalfSpace::new([0.0, 0.0, 1.0], 0.0)).fixed()
 }
 
-fn run(scene: &Scene, end: f64) -> Trajectory {
-    match scene.run(0.0..end, &RunOptions::tolerance(1e-9)) {
-        Ok(run) => run,
-        Err(error) => panic!("{error}"),
-    }
-}
-
 fn first(run: &Trajectory) -> Vec<BodyMotion> {
     run.motions(0)
-}
-
-fn last(run: &Trajectory) -> Vec<BodyMotion> {
-    run.motions(run.times().len() - 1)
-}
-
-#[track_caller]
-fn close(a: Vector3, b: [f64; 3], tolerance: f64) {
-    let b = Vector3::from(b);
-    assert!((a - b).norm() <= tolerance, "{:?} is not {:?}: {:e}", a.as_slice(), b.as_slice(), (a - b).norm());
 }
 
 /// The corner of a cuboid that is lowest.
@@ -67,7 +41,7 @@ fn a_corner_hits_a_plane_off_centre() {
         assert!((event.time - (1.0 + r.z) / v).abs() < 1e-11, "{}", event.time);
         close(event.impulse, [0.0, 0.0, j], TIGHT * j);
         close(event.velocity[1], [0.5, 0.0, j / m - v], TIGHT * v);
-        close(event.angular_velocity[1], (r.cross(&Vector3::z()) * j / inertia).into(), TIGHT * v / a);
+        close(event.angular_velocity[1], r.cross(&Vector3::z()) * j / inertia, TIGHT * v / a);
         let after = event.velocity[1] + event.angular_velocity[1].cross(&r);
         assert!((after.z - e * v).abs() < TIGHT * v);
         if e == 1.0 {
@@ -363,9 +337,9 @@ fn elastic_motion_turned_round_comes_back() {
     });
     let back = run(&scene(walls.into_iter().chain(turned)), 0.6);
     for (a, b) in first(&forth)[6..].iter().zip(&last(&back)[6..]) {
-        close(b.position, a.position.into(), CLOSE);
-        close(b.velocity, (-a.velocity).into(), CLOSE * 2.0);
-        close(b.angular_velocity, (-a.angular_velocity).into(), CLOSE * 20.0);
+        close(b.position, a.position, CLOSE);
+        close(b.velocity, -a.velocity, CLOSE * 2.0);
+        close(b.angular_velocity, -a.angular_velocity, CLOSE * 20.0);
     }
     let energy = |motions: &[BodyMotion]| motions.iter().map(BodyMotion::kinetic_energy).sum::<f64>();
     let (before, after) = (energy(&first(&forth)[6..]), energy(&end[6..]));

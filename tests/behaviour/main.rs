@@ -12,6 +12,7 @@ mod files;
 mod freedoms;
 mod impacts;
 mod layers;
+mod meeting;
 mod order;
 mod prescribed;
 mod promises;

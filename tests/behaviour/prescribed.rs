@@ -1,38 +1,13 @@
 //! Bodies on prescribed motions, and what they do to others, against closed forms; each formula stands in its test.
 
+use super::meeting::{close, last, run, scene};
 use bryla::math::{Vector3, quaternion};
 use bryla::{
-    Body, BodyMotion, Cuboid, EventKind, HalfSpace, Prescribed, Response, RunError, RunOptions, Scene, Simulation,
-    Sphere, Trajectory, UniformGravity,
+    Body, Cuboid, EventKind, HalfSpace, Prescribed, Response, RunError, RunOptions, Simulation, Sphere, UniformGravity,
 };
 
 const TIGHT: f64 = 1e-12;
 const CLOSE: f64 = 1e-11;
-
-fn scene(bodies: impl IntoIterator<Item = Body>) -> Scene {
-    let mut scene = Scene::new();
-    for body in bodies {
-        scene.add(body).unwrap();
-    }
-    scene
-}
-
-fn run(scene: &Scene, end: f64) -> Trajectory {
-    match scene.run(0.0..end, &RunOptions::tolerance(1e-9)) {
-        Ok(run) => run,
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn last(run: &Trajectory) -> Vec<BodyMotion> {
-    run.motions(run.times().len() - 1)
-}
-
-#[track_caller]
-fn close(a: Vector3, b: impl Into<Vector3>, tolerance: f64) {
-    let b = b.into();
-    assert!((a - b).norm() <= tolerance, "{:?} is not {:?}: {:e}", a.as_slice(), b.as_slice(), (a - b).norm());
-}
 
 #[test]
 fn samples_of_a_moved_body_follow_its_formula() {

@@ -6,46 +6,22 @@
 //!
 //! Momenta and energies are held to 1e-12 of the case's own, places to 1e-12 of its size (eps of the search).
 
+use super::meeting::{close, last, run, scene};
 use bryla::math::{Vector3, quaternion};
 use bryla::{
-    Body, BodyMotion, Cuboid, EventKind, HalfSpace, Method, Response, RunError, RunOptions, Scene, Simulation, Sphere,
-    Spring, Trajectory, UniformGravity,
+    Body, BodyMotion, Cuboid, EventKind, HalfSpace, Method, Response, RunError, RunOptions, Simulation, Sphere, Spring,
+    UniformGravity,
 };
 
 const TIGHT: f64 = 1e-12;
 const CLOSE: f64 = 1e-11;
 
-fn scene(bodies: impl IntoIterator<Item = Body>) -> Scene {
-    let mut scene = Scene::new();
-    for body in bodies {
-        scene.add(body).unwrap();
-    }
-    scene
-}
-
 fn ball(name: &str, radius: f64, mass: f64) -> Body {
     Body::new(name, Sphere::new(radius)).mass(mass)
 }
 
-fn run(scene: &Scene, end: f64) -> Trajectory {
-    match scene.run(0.0..end, &RunOptions::tolerance(1e-9)) {
-        Ok(run) => run,
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn last(run: &Trajectory) -> Vec<BodyMotion> {
-    run.motions(run.times().len() - 1)
-}
-
 fn energy(motions: &[BodyMotion]) -> f64 {
     motions.iter().map(BodyMotion::kinetic_energy).sum()
-}
-
-#[track_caller]
-fn close(a: Vector3, b: impl Into<Vector3>, tolerance: f64) {
-    let b = b.into();
-    assert!((a - b).norm() <= tolerance, "{:?} is not {:?}: {:e}", a.as_slice(), b.as_slice(), (a - b).norm());
 }
 
 #[test]
