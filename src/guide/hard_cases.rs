@@ -45,7 +45,7 @@
 //! | case | why it is hard | what is asked |
 //! |---|---|---|
 //! | a general heavy top, one that tumbles over, fast and slow ones | no closed form | the tolerance; `E` and `L_z` within it |
-//! | Kovalevskaya's top, `I₁ = I₂ = 2I₃` | two nearly equal moments | `\|(ω₁+iω₂)² − c(γ₁+iγ₂)/I₃\|²` kept |
+//! | Kovalevskaya's top, `I₁ = I₂ = 2I₃` | two equal moments, whose principal axes rounding chooses | `\|(ω₁+iω₂)² − c(γ₁+iγ₂)/I₃\|²` kept |
 //! | Goryachev's and Chaplygin's, `I₁ = I₂ = 4I₃`, `L_z = 0` | the same | `ω₃(ω₁²+ω₂²) − cω₁γ₃/I₃` kept |
 //! | a sleeping top 1 % above its limit `L₃² = 4I₁mgr` | sleeps, but trembles | leans by `θ₀L₃/√(L₃² − 4I₁mgr)` at most |
 //! | the same 1 % below | wakes as `e^(λt)` | falls to the root of `β(1−u²) = a²(cos θ₀ − u)` |
@@ -68,7 +68,7 @@
 //! | a corner on a plane, off centre | `j = −(1+e) v_n/(1/m + n·(I⁻¹(r×n))×r)` |
 //! | a thin rod on one end | the same with `I = ml²/12` |
 //! | cubes head on, a flat elastic cube on its face | velocities swap, no spin, ever |
-//! | twenty bounces, and the end of the series | `v₀ eⁿ`; at `t = (1+e)/(1−e) v₀/g` after the first |
+//! | twenty bounces, and the end of the series | `v₀ eⁿ`; at `t = (1+e)/(1−e) v₀/g` after the drop from rest |
 //! | an oblique ball | grip: `j_t = v_t/(1/m + r²/I)`; slip: `j_t = μ j_n` of the whole impulse |
 //! | a cradle, an unequal chain, three that meet symmetrically | momentum and energy, and the mirror |
 //! | an elastic cube into a corner | comes straight back |

@@ -143,6 +143,8 @@ impl<P: Problem> Integrator<P> for Taylor<P> {
             let strayed = if self.projection { strayed } else { problem.orientation_error(&front.y) };
             counts.orientation_drift = counts.orientation_drift.max(strayed);
             if end.value >= to {
+                // what the last step has strayed is put right by the next
+                counts.orientation_drift = counts.orientation_drift.max(problem.orientation_error(&front.y));
                 return Ok(());
             }
         }

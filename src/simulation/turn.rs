@@ -68,7 +68,10 @@ impl Lane {
         if after < END * h || after > (1.0 - END) * h {
             return false;
         }
-        let kink = self.flight.segment().start + after;
+        let (start, kink) = (self.flight.segment().start, self.flight.segment().start + after);
+        if kink <= start {
+            return false; // no time lies between: a step up to it would not move on
+        }
         let mut counts = *self.flight.counts();
         counts.steps -= 1;
         counts.rejected += 1;

@@ -1,5 +1,7 @@
 //! Projectiles, satellites and the hovercraft, against their formulas.
 
+use std::ops::ControlFlow;
+
 use bryla::integrator::free_rotation::FreeRotation;
 use bryla::math::{Matrix3, Vector3, quaternion};
 use bryla::{
@@ -119,5 +121,60 @@ fn a_tumbling_satellite_has_a_horizon() {
     for (sample, &t) in times.iter().enumerate().filter(|(_, t)| **t <= known) {
         let angle = quaternion::angle_between(&run.states(sample)[0].orientation, &other.states(sample)[0].orientation);
         assert!(angle <= 2e-8, "t = {t}: {angle:.2e} rad");
+    }
+}
+
+/// Engines push a hull until its drag turns round within a few ulp of the end of a step of the pass before: the run goes
+/// on from there. Of its steps nothing is asked but that there is an end of them.
+#[test]
+fn a_turn_at_the_end_of_a_step_does_not_stop_the_clock() {
+    let mut scene = Scene::new();
+    let inertia = Matrix3::from_diagonal(&Vector3::new(0.3, 0.4, 0.5));
+    let hull = Body::with_inertia("hull", 2.0, inertia).freedom(Freedom::planar([0.0, 0.0, 1.0]));
+    let hull = hull.velocity([-0.37975405133256723, 0.3, 0.0]).angular_velocity([0.0, 0.0, 0.10886487023896829]);
+    scene.add(hull).unwrap();
+    let engines = [
+        (
+            [-0.5, 0.0, 0.0],
+            [0.7488452133871824, -0.9005498682441044, 0.0],
+            [
+                (0.30755066764990824, 0.14893710858567244),
+                (1.3536992965869552, 0.5400141970316353),
+                (2.5194199885611575, 0.0),
+            ],
+        ),
+        (
+            [0.4, 0.2, 0.0],
+            [2.629802902185241, -0.17007631432079973, 0.0],
+            [
+                (0.24321630795851235, 0.9025195985861533),
+                (1.5156525603485955, 0.42316608747831985),
+                (3.9497912084549633, 0.0),
+            ],
+        ),
+        (
+            [0.4, -0.2, 0.0],
+            [2.91672561586084, -0.11579609046291361, 0.0],
+            [
+                (0.9503915454865776, 0.2385714245842171),
+                (1.2958565978549863, 0.6024295262424681),
+                (3.3506975195020416, 0.0),
+            ],
+        ),
+    ];
+    for (point, force, schedule) in engines {
+        scene.add_effect(Thruster::new("hull", point, force).schedule(schedule.to_vec()));
+    }
+    scene.add_effect(Drag::new(0.4, 0.2).angular(0.1, 0.05));
+
+    let mut steps = 0;
+    let mut count = |_| {
+        steps += 1;
+        if steps < 100_000 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let options = RunOptions::tolerance(3.499321480048751e-7);
+    match scene.run_observed([0.0, 4.225537561363096], &options, &mut count) {
+        Ok(run) => assert_eq!(run.report().met, Some(true)),
+        Err(error) => panic!("{error}"),
     }
 }
