@@ -216,9 +216,10 @@
 //! sees how the differences fall, and trusts no more than that. In closed form nothing but rounding is left:
 //! 4 ε for every radian turned.
 //!
-//! All runs round the moments of inertia and the start alike, and an unstable motion magnifies that: where bodies meet
-//! nothing and loads have no kinks, the coarser runs start with numbers that are a few ε off, so that their differences
-//! show it.
+//! An unstable motion magnifies roundings, also those that all runs have in common, such as those of the moments of
+//! inertia. So where bodies meet nothing, the coarser runs are nudged: their numbers are a few ε off at the start, and
+//! their changes in every step (at random, from a fixed seed), by as much more as their errors are larger. What the finer
+//! run's roundings do then shows in the differences.
 //!
 //! A second measure costs no run: the energy audit of
 //! [`Trajectory::energy`](crate::trajectory::Trajectory::energy). Kinetic + potential + dissipated − work should stay;
@@ -242,8 +243,8 @@
 //!
 //! A tolerance below what rounding leaves is refused before the first step: `64 ε` for the positions and for
 //! every radian that the fastest body would turn at its starting rate. The search gives up, with `met = false`, where
-//! the next run would need more than 2e7 steps, and after 24 rounds of three; of the rounds so far, the one with the
-//! farthest horizon is the result.
+//! the next run would need more than 2e7 steps, and after 24 rounds of three; the last round that went to its end
+//! is the result.
 //!
 //! # Comparing
 //!

@@ -95,6 +95,10 @@ pub trait Flight: Debug + Send {
     /// As [`interpolate`](Self::interpolate).
     fn pass_switch(&mut self) -> Result<(), FlightError>;
 
+    /// From now on adds noise to the change of every number in every step, up to this part of it [-], as rounding does;
+    /// a closed form has none.
+    fn add_noise(&mut self, _part: f64) {}
+
     /// Leaves out the effects at these places of the scene from the front on, and no others; a closed form has none
     /// to leave out.
     fn leave_out(&mut self, _effects: &[usize]) {}
@@ -124,6 +128,32 @@ pub struct Integration<P: Problem> {
     segment: Segment,
     stale: bool,
     counts: Counts,
+    noise: Option<Noise>,
+}
+
+/// Roundings on purpose, with which runs that share their own show what these do.
+#[derive(Debug)]
+struct Noise {
+    /// The largest, as a part of a number's change in a step [-].
+    part: f64,
+    /// `SplitMix64` (Steele, Lea, Flood 2014, OOPSLA), from a fixed seed: the same bits in every run.
+    random: u64,
+    /// The numbers where the step began.
+    start: Vec<f64>,
+}
+
+impl Noise {
+    fn add_to(&mut self, y: &[f64], rest: &mut [f64]) {
+        for ((y, rest), start) in y.iter().zip(rest).zip(&self.start) {
+            self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.random;
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            // the upper 53 digits, as a number of −1..1
+            let random = 2.0 * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 1.0;
+            *rest += self.part * random * (y - start);
+        }
+    }
 }
 
 impl<P: Problem> Integration<P> {
@@ -133,7 +163,7 @@ impl<P: Problem> Integration<P> {
         start.as_mut().copy_from_slice(y);
         let front = Front { time: Time::new(t), since: t, y: start, rest: P::Y::zeros(y.len()) };
         let (segment, counts) = (Segment::default(), Counts::default());
-        Self { problem, integrator, front, start: Time::new(t), segment, stale: false, counts }
+        Self { problem, integrator, front, start: Time::new(t), segment, stale: false, counts, noise: None }
     }
 }
 
@@ -141,9 +171,15 @@ impl<P: Problem> Integration<P> {
     /// A step, and more while the front is before `to` [s]. Why one failed is what a user's function
     /// complained about, before what came of it.
     fn take_steps(&mut self, to: f64, limit: f64) -> Result<(), FlightError> {
-        let Self { problem, integrator, front, start, counts, stale, .. } = self;
+        let Self { problem, integrator, front, start, counts, stale, noise, .. } = self;
         *stale = true;
+        if let Some(noise) = noise {
+            noise.start.copy_from_slice(front.y.as_ref());
+        }
         let taken = integrator.advance(problem, front, (to, limit), counts);
+        if let Some(noise) = noise {
+            noise.add_to(front.y.as_ref(), front.rest.as_mut());
+        }
         *start = integrator.last_start();
         taken.map_err(|error| problem.take_failure().map_or(error, FlightError::UserEffect))
     }
@@ -159,7 +195,13 @@ impl<P: Problem> Flight for Integration<P> {
     }
 
     fn advance_past(&mut self, to: f64, limit: f64) -> Result<(), FlightError> {
-        if self.front() < to { self.take_steps(to, limit) } else { Ok(()) }
+        if self.noise.is_none() {
+            return if self.front() < to { self.take_steps(to, limit) } else { Ok(()) };
+        }
+        while self.front() < to {
+            self.advance(limit)?;
+        }
+        Ok(())
     }
 
     fn interpolate(&mut self) -> Result<(), FlightError> {
@@ -210,6 +252,10 @@ impl<P: Problem> Flight for Integration<P> {
         self.front.since = self.front.time.value;
         self.integrator.restart();
         Ok(())
+    }
+
+    fn add_noise(&mut self, part: f64) {
+        self.noise = Some(Noise { part, random: 0, start: self.front.y.as_ref().to_vec() });
     }
 
     fn leave_out(&mut self, effects: &[usize]) {

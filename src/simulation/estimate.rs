@@ -57,6 +57,15 @@ impl Comparison {
         }
         comparison
     }
+
+    /// What both comparisons of a run allow to be said.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            worst: self.worst.max(other.worst),
+            within_horizon: self.within_horizon.max(other.within_horizon),
+            horizon: self.horizon.min(other.horizon),
+        }
+    }
 }
 
 /// The time from which on two runs tell different stories [s]: the first bounce of a pair that is not among

@@ -204,22 +204,27 @@ struct Grain {
     eps: f64,
     /// Steps of contacts that last, in their own [-].
     step: f64,
-    /// By how much the numbers at the start of what is integrated and meets nothing are off, as a part of each [-]: as
-    /// the roundings that all passes have in common, such as those of moments of inertia, a motion may magnify them.
-    /// Where loads have kinks it is 0: passes share steps, and those end on the kinks.
+    /// By how much the numbers of what is integrated and meets nothing are off at the start, as a part of each, and their
+    /// changes in every step [-]: a motion may magnify roundings, also those that all passes have in common, such as
+    /// those of moments of inertia.
     nudge: f64,
 }
 
-/// What the numbers at the start may be off by in the coarser of two passes [-].
+/// What numbers may be off by [-].
 const NUDGE: f64 = 4.0 * f64::EPSILON;
+/// The most by which a pass may be nudged more than the next finer one [-]: what methods of high order are trusted to
+/// gain is more, and would stand out.
+const MOST_GAIN: f64 = 64.0;
 
 impl Grain {
     /// What the options say.
     const FINE: Self = Self { eps: 1.0, step: 1.0, nudge: 0.0 };
 
-    /// So many times coarser.
-    fn times(times: f64) -> Self {
-        Self { eps: times, step: times, nudge: (times - 1.0) * NUDGE }
+    /// So many times coarser, where halving the steps divides the error by `gain`: the nudges fall alike, so that the
+    /// difference of two passes shows what the finer one would be off by.
+    fn times(times: f64, gain: f64) -> Self {
+        let coarser = libm::pow(gain.min(MOST_GAIN), libm::log2(times));
+        Self { eps: times, step: times, nudge: (coarser - 1.0) * NUDGE }
     }
 }
 
@@ -267,10 +272,14 @@ impl Simulation {
         for (group, spec) in plan.groups().iter().enumerate() {
             let charts = plan.charts(group, &[])?;
             let mut motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
-            if grain.nudge > 0.0 && !spec.meets && !spec.has_kinks && spec.method != Method::Exact {
+            let is_nudged = grain.nudge > 0.0 && !spec.meets && spec.method != Method::Exact;
+            if is_nudged {
                 charts.iter().zip(&mut motions).for_each(|(chart, motion)| nudge(chart, motion, grain.nudge));
             }
-            let flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
+            let mut flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
+            if is_nudged {
+                flight.add_noise(grain.nudge);
+            }
             let switched = plan.switched(spec, span.start)?;
             let lane = Lane::new(group, spec.clone(), flight, charts, motions, span.start);
             lanes.push(Lane { switched, phase: group, ..lane });

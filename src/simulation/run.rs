@@ -111,7 +111,8 @@ impl Plan {
         }
 
         let began = thread_seconds();
-        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), Grain::times(2.0), 2, observer);
+        let grain = Grain::times(2.0, full_gain(self.order()));
+        let coarse = course.pass(self.controls(&Control::Step(2.0 * step)), grain, 2, observer);
         run.report.seconds.estimate = thread_seconds() - began;
         match coarse {
             Ok((coarse, _)) => {
@@ -152,13 +153,14 @@ impl Plan {
         let course = Course { plan: self.clone(), span, times };
         let estimates = self.options().estimate;
         let mut pace = Pace::first(self, span, tolerance);
-        let (began, mut mismatches, mut best) = (thread_seconds(), 0, None::<Trajectory>);
+        let (began, mut mismatches, mut finest) = (thread_seconds(), 0, None::<Trajectory>);
         for number in 0..ROUNDS {
             let (before, mut failure) = (thread_seconds(), None);
-            let grain = pace.grain(4.0);
+            let most_trusted = trusted(full_gain(self.order()));
+            let grain = |times| pace.grain(times, most_trusted);
             let (mut run, nodes) = course.attempt(
                 self.controls(&pace.control),
-                if estimates { grain } else { Grain { nudge: 0.0, ..grain } },
+                if estimates { grain(4.0) } else { Grain { nudge: 0.0, ..grain(4.0) } },
                 3 * number + 1,
                 observer,
                 &mut failure,
@@ -178,12 +180,12 @@ impl Plan {
                 return finish(run, span, tolerance, &pace, failure);
             }
 
-            // what coarse steps broke, finer ones may mend; where the finest break, the rounds before have told
+            // what coarse steps broke, finer ones may mend; where those break, the round before has told
             if failure.is_some() {
                 let next = pace.finer(self.order(), tolerance, f64::INFINITY);
                 let steps = run.report.counts.steps as f64 * pace.longer(self.order(), &next);
-                match best {
-                    Some(best) => return Ok(best),
+                match finest {
+                    Some(finest) => return Ok(finest),
                     None if pace.is_finest() || steps > MOST_STEPS || number + 1 == ROUNDS => {
                         return finish(run, span, tolerance, &pace, failure);
                     }
@@ -196,16 +198,21 @@ impl Plan {
             let coarser = run;
             let nodes: Vec<Arc<[f64]>> = nodes.into_iter().map(Into::into).collect();
             let cut = |pieces| nodes.iter().map(|nodes| Control::Mesh(Mesh { nodes: nodes.clone(), pieces })).collect();
-            let (mut coarse, _) = course.attempt(cut(2), pace.grain(2.0), 3 * number + 2, observer, &mut None)?;
+            let (mut coarse, _) = course.attempt(cut(2), grain(2.0), 3 * number + 2, observer, &mut None)?;
             coarse.report.length_scale = coarser.report.length_scale;
             let before = thread_seconds();
             failure = None;
-            let (mut run, _) = course.attempt(cut(4), pace.grain(1.0), 3 * number + 3, observer, &mut failure)?;
+            let (mut run, _) = course.attempt(cut(4), grain(1.0), 3 * number + 3, observer, &mut failure)?;
             run.report.length_scale = estimate::length_scale(&run);
             run.report.seconds.run = thread_seconds() - before;
             run.report.seconds.estimate = before - began;
             let gain = if has_impacts(&run) { EVENT_GAIN } else { observed_gain(self, &coarser, &coarse, &run) };
-            let comparison = Comparison::new(&run, &coarse, gain, self.rounding(span), Some(tolerance));
+            let against = |other, gain| Comparison::new(&run, other, gain, self.rounding(span), Some(tolerance));
+            let mut comparison = against(&coarse, gain);
+            if gain <= 1.0 + LEAST_TRUST {
+                // where rounding rules, two runs may be wrong alike by chance; three hardly are
+                comparison = comparison.and(against(&coarser, gain * gain));
+            }
             run.report.error_estimate = Some(comparison.within_horizon);
             run.report.estimated_by = if comparison.worst.is_finite() {
                 "against runs with steps twice and four times as long".into()
@@ -225,15 +232,14 @@ impl Plan {
                     if comparison.worst <= tolerance {
                         return Ok(run);
                     }
-                    if best.as_ref().is_none_or(|best| best.report.horizon <= run.report.horizon) {
-                        best = Some(run);
-                    }
+                    // not the one with the farthest horizon, which may be but the one with the luckiest estimate
+                    finest = Some(run);
                 }
-                Err(error) if is_last && best.is_none() => return Err(error),
+                Err(error) if is_last && finest.is_none() => return Err(error),
                 Err(_) => {}
             }
-            if let Some(best) = best.take_if(|_| is_last) {
-                return Ok(best);
+            if let Some(finest) = finest.take_if(|_| is_last) {
+                return Ok(finest);
             }
             pace = next;
             pace.measure_by(length);
@@ -422,10 +428,9 @@ fn full_gain(order: u32) -> f64 {
     libm::pow(2.0, f64::from(order))
 }
 
-/// How far a gain is trusted: a part of it; and where there is none, as where rounding rules, both runs
-/// are wrong alike, and four times their difference is taken [-].
+/// How far a gain is trusted [-]: a part of it; and where there is none, four times the difference of the runs is taken.
 fn trusted(gain: f64) -> f64 {
-    1.0 + ((gain - 1.0) / GAIN_CAUTION).max(0.25)
+    1.0 + ((gain - 1.0) / GAIN_CAUTION).max(LEAST_TRUST)
 }
 
 /// The gain by which the error of the finest of three runs is told, each with half the steps of the one
@@ -458,13 +463,13 @@ impl Pace {
         Self { control: Control::Error(Limits { local, scales, longest: f64::INFINITY }) }
     }
 
-    /// What a pass does coarsely, `times` as much as the finest of a round.
-    fn grain(&self, times: f64) -> Grain {
+    /// What a pass does coarsely, `times` as much as the finest of a round; `gain` as in [`Grain::times`].
+    fn grain(&self, times: f64, gain: f64) -> Grain {
         let step = match &self.control {
             Control::Error(limits) => libm::pow(limits.local / CONTACT_LOCAL, 1.0 / CONTACT_ORDER).min(2.0),
             Control::Step(_) | Control::Mesh(_) => 1.0,
         };
-        Grain { step: 0.25 * times * step, ..Grain::times(times) }
+        Grain { step: 0.25 * times * step, ..Grain::times(times, gain) }
     }
 
     /// What should meet the tolerance, where this pace left an estimate.
@@ -529,6 +534,8 @@ const FLOOR: f64 = 16.0;
 const FIRST_LOCAL: f64 = 0.05;
 /// By how much less than its order says a halving is trusted [-].
 const GAIN_CAUTION: f64 = 4.0;
+/// What is trusted of a halving at least [-]: below it rounding rules.
+const LEAST_TRUST: f64 = 0.25;
 /// Least error of a step that can be told from rounding [-].
 const LEAST_LOCAL: f64 = 1.0e-15;
 /// Largest error of a step in which halving shows the order [-].

@@ -168,7 +168,7 @@ fn a_thin_body_does_not_blow_up_in_ten_million_steps() {
 
 /// L leans towards an axis by at most what the polhode allows: the section of the sphere `|L|` and the ellipsoid of
 /// energy near that axis is an ellipse with half-axes in the ratio of the square roots of `1/I_j − 1/I`.
-fn stays_on_its_axis(steps: u32) {
+fn stays_on_its_axis(steps: u32, methods: &[Method]) {
     let moments = [1.0_f64, 2.0, 3.0];
     for (axis, others) in [(2, [0, 1]), (0, [1, 2])] {
         for other in others {
@@ -178,7 +178,7 @@ fn stays_on_its_axis(steps: u32) {
             let third = 3 - axis - other;
             let most = 1e-3 * (gap(other) / gap(third)).sqrt().max(1.0);
             let scene = body(moments, momentum);
-            for method in of_order_two().filter(|&method| method != Method::Heun && method != Method::Buss2) {
+            for &method in methods {
                 let unit = Vector3::from_fn(|i, _| if i == axis { 1.0 } else { 0.0 });
                 let (_, _, lean) = ranges(&scene, unit, method, 0.02, steps);
                 println!("axis {axis}, {method}: leans by {lean:.6e} rad, {most:.6e} by the formula");
@@ -190,13 +190,15 @@ fn stays_on_its_axis(steps: u32) {
 
 #[test]
 fn a_spin_about_the_largest_or_the_least_axis_stays_there() {
-    stays_on_its_axis(50_000);
+    stays_on_its_axis(50_000, &of_order_two().collect::<Vec<_>>());
 }
 
 #[test]
 #[ignore = "an hour; cargo test --release --test hard_cases -- --ignored --nocapture"]
 fn a_spin_about_the_largest_or_the_least_axis_stays_there_for_a_hundred_million_steps() {
-    stays_on_its_axis(100_000_000);
+    // Heun's and Buss's methods gain energy, by which so many steps would tip the body over
+    let keeping = of_order_two().filter(|&method| method != Method::Heun && method != Method::Buss2);
+    stays_on_its_axis(100_000_000, &keeping.collect::<Vec<_>>());
 }
 
 #[test]
