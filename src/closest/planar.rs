@@ -140,22 +140,18 @@ impl<'a, R: Real> Placed<'a, R> {
         best
     }
 
-    /// The edge of a vertex whose wall `p` has crossed, if any: `p` is not in V(vertex).
-    fn crossed_at_vertex(&self, i: usize, p: V2<R>) -> Option<usize> {
+    /// The edges of a vertex whose walls `p` has crossed; where there is one, `p` is not in V(vertex).
+    fn crossed_at_vertex(&self, i: usize, p: V2<R>) -> impl Iterator<Item = PlanarFeature> + use<R> {
         if self.shape.edge_count() == 0 {
-            return None;
+            return [None; 2].into_iter().flatten();
         }
         let v = self.vertex(i);
         let d = sub(p, v);
         let (before, after) = (self.shape.edge_into(i), i);
         let (into, out) = (sub(v, self.edge(before)[0]), sub(self.edge(after)[1], v));
-        if dot(d, out) > R::from(0.0) {
-            Some(after)
-        } else if dot(d, into) < R::from(0.0) {
-            Some(before)
-        } else {
-            None
-        }
+        let zero = R::from(0.0);
+        let crossed = [(dot(d, out) > zero).then_some(Edge(after)), (dot(d, into) < zero).then_some(Edge(before))];
+        crossed.into_iter().flatten()
     }
 
     /// The edge over which `p` is highest, and that height.
@@ -290,29 +286,29 @@ fn walk<R: Real>(
         let [p, q] = points.map(|p| [p[0].to_f64() + origin[0], p[1].to_f64() + origin[1]]);
         path.push(WalkStep { feature_a: features[0], feature_b: features[1], point_a: p, point_b: q });
 
-        // the wall that is violated, if any, leads to the next pair; onto an edge only where that shortens
-        // the distance, for on a wall rounding may see either side
+        // a wall that is violated, if any, leads to the next pair; onto an edge only where that shortens
+        // the distance, for on a wall rounding may see either side, and the vertex's other edge may be the one
         let d = sub(points[1], points[0]);
         let shortens = |pair: [PlanarFeature; 2]| {
             let [p, q] = closest_points(a, b, &pair);
             (dot(sub(q, p), sub(q, p)) < dot(d, d)).then_some(pair)
         };
-        let from_a = |i: usize| a.crossed_at_vertex(i, points[1]).map(Edge);
-        let from_b = |j: usize| b.crossed_at_vertex(j, points[0]).map(Edge);
+        let from_a = |i: usize| a.crossed_at_vertex(i, points[1]);
+        let from_b = |j: usize| b.crossed_at_vertex(j, points[0]);
         let next = match *features {
             [Vertex(i), Vertex(j)] => {
-                let onto_a = from_a(i).and_then(|f| shortens([f, Vertex(j)]));
-                onto_a.or_else(|| from_b(j).and_then(|f| shortens([Vertex(i), f])))
+                let onto_a = from_a(i).find_map(|f| shortens([f, Vertex(j)]));
+                onto_a.or_else(|| from_b(j).find_map(|f| shortens([Vertex(i), f])))
             }
             [Vertex(i), Edge(e)] => match leave_edge(b, e, points[0]) {
                 Left::Feature(f) => Some([Vertex(i), f]),
                 Left::Behind => return End::Sweep,
-                Left::Stays => from_a(i).and_then(|f| shortens([f, Edge(e)])),
+                Left::Stays => from_a(i).find_map(|f| shortens([f, Edge(e)])),
             },
             [Edge(e), Vertex(j)] => match leave_edge(a, e, points[1]) {
                 Left::Feature(f) => Some([f, Vertex(j)]),
                 Left::Behind => return End::Sweep,
-                Left::Stays => from_b(j).and_then(|f| shortens([Edge(e), f])),
+                Left::Stays => from_b(j).find_map(|f| shortens([Edge(e), f])),
             },
             [Edge(e), Edge(f)] => match lower_dimension(a, b, e, f) {
                 Some(pair) => Some(pair),
@@ -609,6 +605,21 @@ mod tests {
                 (found.signed_distance - want).abs() <= 2.0 * f64::EPSILON,
                 "at {x}, {y}: {}",
                 found.signed_distance
+            );
+        }
+    }
+
+    #[test]
+    fn both_edges_of_a_vertex_are_tried() {
+        // the triangle's lower side is parallel to the segment: rounding sees a wall crossed there that leads nowhere
+        let segment = ConvexPolygon::from_points(&[[-1.0, 0.0], [1.0, -0.5]]).unwrap();
+        let triangle = ConvexPolygon::from_points(&[[0.0, -2.0], [2.0, -2.5], [1.0, -2.0]]).unwrap();
+        let home = PlanarPose::default();
+        for start in [None, Some((Edge(0), Vertex(0))), Some((Edge(0), Vertex(1))), Some((Edge(0), Vertex(2)))] {
+            let found = closest_features_planar(&segment, &home, &triangle, &home, start).unwrap();
+            assert!(
+                found.certified && (found.signed_distance - 1.5).abs() <= 4.0 * f64::EPSILON,
+                "{start:?}: {found:?}"
             );
         }
     }
