@@ -101,7 +101,7 @@ impl Plan {
     }
 
     fn write_group(&self, out: &mut String, number: usize, group: &FlightGroup) -> std::fmt::Result {
-        let charts = self.charts(number, &[]).unwrap_or_default();
+        let charts = self.charts(number, &[]);
         for (place, (&index, chart)) in group.members.iter().zip(&charts).enumerate() {
             let body = &self.bodies[index];
             let what = match chart {

@@ -136,6 +136,8 @@ pub struct Plan {
     options: RunOptions,
     bodies: Vec<PlannedBody>,
     groups: Vec<Arc<FlightGroup>>,
+    /// The coordinates of every group's bodies.
+    charts: Vec<Vec<Chart>>,
     left_out: Vec<LeftOut>,
 }
 
@@ -202,14 +204,17 @@ impl Plan {
         for group in &mut groups {
             group.choose_method(&bodies, options)?;
         }
+        let charts_of = |group: &FlightGroup| {
+            let form = group.method.form(options.orientation == Orientation::Matrix);
+            let chart = |&index: &usize| match &bodies[index] {
+                body if body.fixed => Ok(Chart::Fixed),
+                body => Chart::new(&body.freedom, form, &body.start, &scene.bodies[index].place()),
+            };
+            group.members.iter().map(chart).collect::<Result<Vec<_>>>()
+        };
+        let charts = groups.iter().map(charts_of).collect::<Result<Vec<_>>>()?;
         let groups = groups.into_iter().map(Arc::new).collect();
-        let plan = Self { scene, options: options.clone(), bodies, groups, left_out };
-
-        // every freedom is tried once, so that a start that it does not allow is found here
-        for index in 0..plan.groups.len() {
-            plan.charts(index, &[])?;
-        }
-        Ok(plan)
+        Ok(Self { scene, options: options.clone(), bodies, groups, charts, left_out })
     }
 
     /// The bodies, in the scene's order.
@@ -282,16 +287,14 @@ impl Plan {
     }
 
     /// The coordinates of a group's bodies; those in `held` rest.
-    pub(crate) fn charts(&self, group: usize, held: &[usize]) -> Result<Vec<Chart>> {
-        let form = self.groups[group].method.form(self.options.orientation == Orientation::Matrix);
-        let chart = |&index: &usize| {
-            let body = &self.bodies[index];
-            if body.fixed || held.contains(&index) {
-                return Ok(Chart::Fixed);
+    pub(crate) fn charts(&self, group: usize, held: &[usize]) -> Vec<Chart> {
+        let mut charts = self.charts[group].clone();
+        for (chart, index) in charts.iter_mut().zip(&self.groups[group].members) {
+            if held.contains(index) {
+                *chart = Chart::Fixed;
             }
-            Chart::new(&body.freedom, form, &body.start, &self.scene.bodies[index].place())
-        };
-        self.groups[group].members.iter().map(chart).collect()
+        }
+        charts
     }
 
     /// The flight of a group from its start at time `t` [s], for those who advance it themselves.
@@ -303,7 +306,7 @@ impl Plan {
             return Err(Error::value("plan", "group", format!("below {}", self.groups.len()), group));
         };
         let motions: Vec<_> = spec.members.iter().map(|&i| self.bodies[i].start).collect();
-        self.flight_for(group, t, &control.clone(), &motions, &[])
+        Ok(self.flight_for(group, t, control, &motions, &[]))
     }
 
     /// The flight of a group from time `t` [s] and these motions of its members; the bodies in `held`
@@ -316,9 +319,8 @@ impl Plan {
         control: &Control,
         motions: &[BodyMotion],
         held: &[usize],
-    ) -> Result<Box<dyn Flight>> {
-        let charts = self.charts(group, held)?;
-        Ok(self.flight_of(&self.groups[group], t, control, charts, motions))
+    ) -> Box<dyn Flight> {
+        self.flight_of(&self.groups[group], t, control, self.charts(group, held), motions)
     }
 
     /// The flight of bodies with these coordinates and what acts on them.

@@ -496,7 +496,7 @@ impl Simulation {
         let lane = &self.lanes[index];
         match lane.compound {
             Some(compound) => self.plan.compound_charts(&self.compounds[compound], !lane.held.is_empty()),
-            None => self.plan.charts(lane.group, &lane.held),
+            None => Ok(self.plan.charts(lane.group, &lane.held)),
         }
     }
 

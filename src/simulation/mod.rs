@@ -270,13 +270,13 @@ impl Simulation {
     fn new(plan: Arc<Plan>, span: Span, controls: Vec<Control>, grain: Grain) -> Result<Self> {
         let mut lanes = Vec::new();
         for (group, spec) in plan.groups().iter().enumerate() {
-            let charts = plan.charts(group, &[])?;
+            let charts = plan.charts(group, &[]);
             let mut motions: Vec<_> = spec.members.iter().map(|&i| plan.bodies()[i].start).collect();
             let is_nudged = grain.nudge > 0.0 && !spec.meets && spec.method != Method::Exact;
             if is_nudged {
                 charts.iter().zip(&mut motions).for_each(|(chart, motion)| nudge(chart, motion, grain.nudge));
             }
-            let mut flight = plan.flight_for(group, span.start, &controls[group], &motions, &[])?;
+            let mut flight = plan.flight_for(group, span.start, &controls[group], &motions, &[]);
             if is_nudged {
                 flight.add_noise(grain.nudge);
             }
@@ -537,14 +537,14 @@ impl Plan {
     }
 
     /// The phase of a group that begins at `t` [s] with these motions.
-    fn phase(&self, group: usize, t: f64, motions: &[BodyMotion], held: &[usize]) -> Result<Phase> {
-        Ok(Phase {
+    fn phase(&self, group: usize, t: f64, motions: &[BodyMotion], held: &[usize]) -> Phase {
+        Phase {
             group,
             start: t,
-            charts: self.charts(group, held)?,
+            charts: self.charts(group, held),
             off: Vec::new(),
             segments: Vec::new(),
             motions: motions.to_vec(),
-        })
+        }
     }
 }
