@@ -163,6 +163,9 @@ fn grow<R: Real>(
         *steps += 1;
         let Some(nearest) = surface.nearest() else { break };
         let Triangle { normal, distance, corners, stuck, .. } = surface.triangles[nearest];
+        if normal == Vec3::zero() {
+            break; // a triangle on one line through the origin says nothing
+        }
         let (ids, low) = pair.lowest(&-normal, Some(surface.ids[corners[0] as usize]));
         if low > R::from(pair.error(0.0)) {
             return None;

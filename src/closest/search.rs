@@ -66,7 +66,9 @@ pub(super) fn search<R: Real>(
     let mut simplex = pair.simplex(start);
     let mut hint = start.first().copied();
     if simplex.count == 0 {
-        let (ids, _) = pair.lowest(toward, None);
+        // where the centres coincide, any direction leads to the surface, and none to a point inside
+        let toward = if *toward == Vec3::zero() { Vec3::new([1.0, 0.0, 0.0]) } else { *toward };
+        let (ids, _) = pair.lowest(&toward, None);
         simplex.push(ids, pair.difference(ids));
         hint = Some(ids);
     }

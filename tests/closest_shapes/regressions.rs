@@ -1,8 +1,8 @@
-//! Cases of curved bodies that made public libraries fail.
+//! Cases of curved bodies that made public libraries fail, and what the fuzzer found here.
 
 use bryla::closest::{Accuracy, ClosestFeatures, Collider, Feature, State, closest_features};
 use bryla::math::Pose;
-use bryla::shape::{Cuboid, Cylinder, Shape, Sphere};
+use bryla::shape::{Cuboid, Cylinder, Ellipsoid, Shape, Sphere};
 
 use crate::proof;
 use crate::random::Random;
@@ -67,4 +67,18 @@ fn a_cylinder_on_a_triangle() {
     let found = closest_features(&cylinder, &upright, &triangle, &Pose::identity(), None, Accuracy::Exact).unwrap();
     assert!((found.signed_distance - 0.5).abs() < 4.0 * f64::EPSILON && found.certified, "{found:?}");
     assert_eq!(found.state, State::Separated);
+}
+
+/// Found by the fuzzer: with both centres on one spot the search began with a point inside, and a triangle on one line
+/// through the origin was taken for a proof.
+#[test]
+fn a_ball_at_the_centre_of_an_ellipsoid() {
+    let (ball, ellipsoid) = (Sphere::new(0.59375).into(), Ellipsoid::new([0.171875, 2.03125, 1.171875]).into());
+    let mut random = Random(3);
+    let turned = [[-3.375, 1.99993896484375, -3.375, -3.375]];
+    for q in turned.into_iter().chain((0..50).map(|_| [0; 4].map(|_| random.within(-1.0, 1.0)))) {
+        let found = proved(&ball, &Pose::identity(), &ellipsoid, &Pose::new([0.0; 3], q));
+        // the shortest way out is along the shortest axis
+        assert!((found.signed_distance + 0.59375 + 0.171875).abs() < 16.0 * f64::EPSILON, "{q:?}: {found:?}");
+    }
 }
