@@ -61,6 +61,11 @@ pub const COORDINATE_MIN: f64 = 1.0e-30;
 /// wider intervals. Smaller: more repeats.
 pub const CERTIFICATE_SLACK: f64 = 2.0 * f64::EPSILON;
 
+/// Width of an interval, as a fraction of the pair's size [-], up to which an answer counts as certified whatever the
+/// rounding costs: what is promised of every pair near the origin. A needle of aspect 1e15 stops even the search in
+/// double-double a few ε short.
+pub const CERTIFICATE_WIDTH: f64 = 16.0 * f64::EPSILON;
+
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
 /// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.
 pub const SEARCH_GAP: f64 = 2.0 * f64::EPSILON;

@@ -15,7 +15,7 @@ use super::walk;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Vector3};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
-use crate::tolerance::{CERTIFICATE_SLACK, SEARCH_GAP};
+use crate::tolerance::{CERTIFICATE_SLACK, CERTIFICATE_WIDTH, SEARCH_GAP};
 
 /// Gap at which a search in double-double stops that runs over curved bodies, as a fraction of the
 /// pair's size [-]. Its points close in on the closest one without ever reaching it; this is a quarter
@@ -304,7 +304,7 @@ pub(super) fn state(lower: f64, upper: f64) -> State {
 /// Whether an interval is as narrow as was asked for.
 #[inline]
 pub(super) fn is_certified(lower: f64, upper: f64, accuracy: Accuracy, error: f64, size: f64) -> bool {
-    let floor = 2.0 * error + CERTIFICATE_SLACK * size;
+    let floor = (2.0 * error + CERTIFICATE_SLACK * size).max(CERTIFICATE_WIDTH * size);
     match accuracy {
         Accuracy::Exact => upper - lower <= floor,
         Accuracy::Relative(r) => upper - lower <= floor.max(r * size),
