@@ -28,7 +28,7 @@ use crate::trajectory::{Event, EventKind, Heat, Trajectory};
 
 /// Impacts of one body at one instant after which it is said to be caught [-]. Two planes that answer each
 /// other with e < 1 are done to rounding after about 50.
-const ROUNDS_AT_ONCE: u32 = 64;
+pub(super) const ROUNDS_AT_ONCE: u32 = 64;
 /// Height of a bounce below which there is none, as a fraction of the pair's size [-]. Larger: bodies come to
 /// rest earlier, by the time of the bounces that are left out. Smaller: more bounces, each half as high.
 const REST_RISE: f64 = 1.0e-10;
@@ -81,6 +81,7 @@ impl Simulation {
             self.lift(&mut cluster);
             let scales = self.scales(&cluster, time);
             self.check_moved(&cluster, &scales, time)?;
+            self.check_joints(&cluster, time)?;
             let Some(pair) = self.sticking(&cluster, &scales) else { break (cluster, scales) };
             self.merge(&cluster, pair, time, iterations, record)?;
             self.iterations += u64::from(iterations);
@@ -90,7 +91,7 @@ impl Simulation {
         let before = cluster.motions.clone();
 
         // those that stick to what is fixed stop; the others are answered all at once
-        let stuck = self.stick(&mut cluster);
+        let stuck = self.stick(&mut cluster, scales.small);
         self.book_stuck(&cluster, &before, stuck, time, iterations);
         let bounced = self.collide(&mut cluster, &scales, time, iterations)?;
         if bounced {

@@ -86,6 +86,13 @@ impl Simulation {
                 let why = format!("{name} is switched by the state, which is not watched in a contact that lasts");
                 return Err(self.lasting(cluster, &cluster.contacts[contact], time, &why));
             }
+            let touched = kept_contacts.iter().flat_map(|&i| [cluster.contacts[i].a, cluster.contacts[i].b]);
+            if let Some(&contact) = kept_contacts.first()
+                && let Some(joint) = touched.map(|place| cluster.bodies[place]).find_map(|unit| self.weak_joint(unit))
+            {
+                let why = format!("{joint}, whose load is not watched in a contact that lasts");
+                return Err(self.lasting(cluster, &cluster.contacts[contact], time, &why));
+            }
             self.still_contacts(cluster, &places, &held, &kept, scales, time);
             let still = |&place: &usize| {
                 let (motion, radius) = (&cluster.motions[place], self.body(cluster.bodies[place]).radius);
@@ -253,17 +260,25 @@ impl Simulation {
     }
 
     /// The load on the moving member of a lane that moves so.
-    pub(super) fn load_on(&self, lane: usize, motion: &BodyMotion, at: Moment) -> Load {
-        let lane = &self.lanes[lane];
-        let spec = &lane.spec;
-        let moving = spec.members.iter().position(|&i| !self.body(i).fixed).unwrap_or(0);
+    pub(super) fn load_on(&self, index: usize, motion: &BodyMotion, at: Moment) -> Load {
+        let lane = &self.lanes[index];
+        let moving = lane.spec.members.iter().position(|&i| !self.body(i).fixed).unwrap_or(0);
         let mut motions = lane.motions.clone();
         motions[moving] = *motion;
         follow(&lane.charts, &mut motions);
+        let mut total = self.loads_on(index, &motions, at);
+        gather(&lane.charts, &motions, &mut total);
+        total[moving]
+    }
+
+    /// The loads of all effects on the members of a lane that move so.
+    pub(super) fn loads_on(&self, lane: usize, motions: &[BodyMotion], at: Moment) -> Vec<Load> {
+        let lane = &self.lanes[lane];
+        let spec = &lane.spec;
         let mut total = vec![Load::zero(); motions.len()];
         let off = lane.loads_off(spec);
         for binding in spec.bindings.iter().filter(|binding| !off.contains(&binding.effect_index)) {
-            let seen = binding.seen(&motions);
+            let seen = binding.seen(motions);
             let mut loads = vec![Load::zero(); seen.len()];
             binding.effect.as_effect().add_to(at, &seen, &mut loads);
             for (&member, own) in binding.members.iter().zip(&loads) {
@@ -271,8 +286,7 @@ impl Simulation {
                 total[member].torque += own.torque;
             }
         }
-        gather(&lane.charts, &motions, &mut total);
-        total[moving]
+        total
     }
 
     /// The moment `t` [s] of a lane, behind the last switch.

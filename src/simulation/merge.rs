@@ -17,7 +17,6 @@ use crate::contact::stick::{Merged, merge, stick};
 use crate::contact::{Answer, Response};
 use crate::error::Result;
 use crate::freedom::Riding;
-use crate::freedom::riding::follow;
 use crate::math::Pose;
 use crate::math::sum::Time;
 use crate::plan::PlannedBody;
@@ -30,6 +29,8 @@ pub(super) struct Stuck {
     bodies: [usize; 2],
     answer: Answer,
     closest: ClosestFeatures,
+    /// Where they touch, as places in the cluster's list.
+    contacts: std::ops::Range<usize>,
 }
 
 /// The closest features seen from the other body.
@@ -108,7 +109,7 @@ impl Simulation {
     }
 
     /// Stops the units that stick to what does not move.
-    pub(super) fn stick(&mut self, cluster: &mut Cluster) -> Vec<Stuck> {
+    pub(super) fn stick(&mut self, cluster: &mut Cluster, small: f64) -> Vec<Stuck> {
         let mut stuck = Vec::new();
         for touching in &cluster.touching {
             let [a, b] = touching.bodies;
@@ -119,10 +120,12 @@ impl Simulation {
             };
             let unit = self.unit(bodies[1]);
             if self.plan.material(a, b).response == Response::Stick
+                && (!self.has_parted(bodies) || self.may_stick(cluster, touching, small))
                 && let Some(place) = cluster.place(unit)
             {
                 let answer = stick(&mut cluster.motions[place]);
-                stuck.push(Stuck { bodies, answer, closest });
+                let contacts = touching.contacts.clone();
+                stuck.push(Stuck { bodies, answer, closest, contacts });
                 self.stuck.push(unit);
             }
         }
@@ -138,9 +141,10 @@ impl Simulation {
         time: Time,
         iterations: u32,
     ) {
-        for Stuck { bodies, answer, closest } in stuck {
+        for Stuck { bodies, answer, closest, contacts } in stuck {
             let Some([was_a, was_b]) = self.motions_of(cluster, bodies, before) else { continue };
             let Some([a, b]) = self.motions_of(cluster, bodies, &cluster.motions) else { continue };
+            self.add_joint((bodies, &b), &closest, &cluster.contacts[contacts]);
             self.events.push(Event {
                 point: closest.point_b,
                 normal: closest.normal,
@@ -157,10 +161,9 @@ impl Simulation {
     pub(super) fn sticking(&self, cluster: &Cluster, scales: &ContactScales) -> Option<usize> {
         cluster.touching.iter().position(|touching| {
             let [a, b] = touching.bodies;
-            let mut contacts = cluster.contacts[touching.contacts.clone()].iter();
             self.plan.material(a, b).response == Response::Stick
                 && ![a, b].iter().any(|&i| self.is_anchored(i))
-                && contacts.any(|contact| cluster.approach(contact) >= -scales.small)
+                && self.may_stick(cluster, touching, scales.small)
         })
     }
 
@@ -211,17 +214,12 @@ impl Simulation {
         }
 
         // its lane stands here
-        let (bodies, whole) = (touching.bodies, self.lanes.len() - 1);
-        let lane = &mut self.lanes[whole];
-        let template = &mut lane.motions[0];
-        *template = BodyMotion { mass: template.mass, inertia_body: template.inertia_body, ..motion };
-        follow(&lane.charts, &mut lane.motions);
-        lane.flight = Box::new(Led::new(lane.charts.clone(), time, &lane.motions));
-        (lane.number, lane.watchers) = (number, watchers);
+        self.stand(&motion, time, number, watchers);
+        let whole = self.lanes[self.lanes.len() - 1].motions[0];
+        let after = pair.map(|i| self.part_motion(i, &whole));
+        self.add_joint((pair, &after[1]), &touching.closest, &cluster.contacts[touching.contacts.clone()]);
 
         // one event, under the names of the two that touched
-        let whole = self.lanes[whole].motions[0];
-        let after = bodies.map(|i| self.part_motion(i, &whole));
         if let Some([was_a, was_b]) = before {
             self.events.push(Event {
                 point: touching.closest.point_b,

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::joints::Joint;
 use super::lasting::Together;
 use super::led::Led;
 use super::near::{Due, Window};
@@ -34,6 +35,10 @@ struct Saved {
     stuck: Vec<usize>,
     /// Compounds in the order of their making: their parts, and where these stand in them.
     compounds: Vec<Vec<(usize, Pose)>>,
+    /// What each body of the scene flies as.
+    units: Vec<usize>,
+    joints: Vec<Joint>,
+    parted: Vec<[usize; 2]>,
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
@@ -61,7 +66,7 @@ struct SavedLane {
 }
 
 /// Version of the file's layout.
-const VERSION: &str = "state 5";
+const VERSION: &str = "state 6";
 
 impl Simulation {
     /// Writes the running state to a file, conventionally `.bryla`.
@@ -98,6 +103,9 @@ impl Simulation {
             together_number: self.together_number,
             stuck: self.stuck.clone(),
             compounds: compounds.collect(),
+            units: self.units[..self.plan.bodies().len()].to_vec(),
+            joints: self.joints.clone(),
+            parted: self.parted.clone(),
             bounces: self.bounces.clone(),
             events: self.events.clone(),
             heat: self.heat.clone(),
@@ -133,6 +141,11 @@ impl Simulation {
             simulation.join(&parts, Time::new(saved.time))?;
         }
         simulation.joined.clear();
+        simulation.return_units(&saved.units).ok_or_else(belongs)?;
+        let knows = |body: &usize| *body < plan.bodies().len();
+        if !saved.joints.iter().map(|joint| &joint.bodies).chain(&saved.parted).flatten().all(knows) {
+            return Err(belongs());
+        }
         if saved.lanes.len() != simulation.lanes.len() {
             return Err(belongs());
         }
@@ -145,6 +158,8 @@ impl Simulation {
         simulation.together = saved.together;
         simulation.together_number = saved.together_number;
         simulation.stuck = saved.stuck;
+        simulation.joints = saved.joints;
+        simulation.parted = saved.parted;
         simulation.bounces = saved.bounces;
         simulation.events = saved.events;
         simulation.heat = saved.heat;
@@ -152,6 +167,34 @@ impl Simulation {
         simulation.iterations = saved.iterations;
         simulation.touch_impacts = saved.touch_impacts;
         Ok(simulation)
+    }
+}
+
+impl Simulation {
+    /// Lets every body fly as what it was saved as: itself, or a compound that it has become part of; none where this
+    /// cannot be.
+    fn return_units(&mut self, units: &[usize]) -> Option<()> {
+        let bodies = self.plan.bodies().len();
+        if units.len() != bodies {
+            return None;
+        }
+        for (body, &unit) in units.iter().enumerate() {
+            let lane = match unit.checked_sub(bodies) {
+                None if unit == body => self.plan.groups().iter().position(|group| group.members.contains(&body)),
+                None => return None,
+                Some(compound) => {
+                    let is_part = self.compounds.get(compound)?.parts.iter().any(|part| part.body == body);
+                    Some(self.places.get(unit).copied().flatten()?.0).filter(|_| is_part)
+                }
+            };
+            self.units[body] = unit;
+            if self.places[body].is_some() {
+                let lane = lane?;
+                let place = self.lanes[lane].spec.members.iter().position(|&member| member == body)?;
+                self.places[body] = Some((lane, place));
+            }
+        }
+        Some(())
     }
 }
 
