@@ -240,7 +240,7 @@ impl Simulation {
     /// lie apart. Of other bodies it is 0.
     fn leaving(&self, a: usize, b: usize, now: f64, eps: f64) -> f64 {
         let Some((_, opening)) = self.released.iter().find(|(pair, _)| *pair == [a, b]) else { return 0.0 };
-        let parting = if self.has_parted([a, b]) { self.parting(a, b, now) } else { 0.0 };
+        let parting = if self.parts_at([a, b], now) { self.parting(a, b, now) } else { 0.0 };
         let (mut acceleration, mut speed) = (Vector3::zeros(), 0.0);
         for (body, sign) in [(a, -1.0), (b, 1.0)] {
             let unit = self.unit(body);

@@ -58,7 +58,7 @@ impl Simulation {
     ) {
         let sum: Vector3 = contacts.iter().map(|contact| contact.point).sum();
         let point = if contacts.is_empty() { closest.point_b } else { sum / contacts.len() as f64 };
-        self.parted.retain(|pair| !is_pair(*pair, bodies));
+        self.parted.retain(|(pair, _)| !is_pair(*pair, bodies));
         self.joints.push(Joint {
             bodies,
             point: b.rotation.tr_mul(&(point - b.position)),
@@ -76,7 +76,12 @@ impl Simulation {
 
     /// Whether a pair has stuck and come off, and not stuck again since.
     pub(super) fn has_parted(&self, bodies: [usize; 2]) -> bool {
-        self.parted.iter().any(|pair| is_pair(*pair, bodies))
+        self.parted.iter().any(|(pair, _)| is_pair(*pair, bodies))
+    }
+
+    /// Whether a pair has come off at this very instant [s].
+    pub(super) fn parts_at(&self, bodies: [usize; 2], now: f64) -> bool {
+        self.parted.iter().any(|(pair, time)| is_pair(*pair, bodies) && *time == now)
     }
 
     /// The joints within a unit, and that by which it hangs; of those that may break.
@@ -226,7 +231,8 @@ impl Simulation {
                         continue;
                     }
                     let ends = [0.0, length].map(&mut at);
-                    let size = ends.iter().map(|end| end.size[which] / most).fold(1.0, f64::max).powi(2);
+                    let most_used = ends.iter().map(|end| end.size[which] / most).fold(1.0, f64::max);
+                    let size = most_used * most_used;
                     let mut g = |offset: f64| {
                         let load = at(offset).load;
                         ([load.force, load.torque][which] / most).norm_squared() - 1.0
@@ -264,7 +270,7 @@ impl Simulation {
         let unit = self.unit(pair[1]);
         let Some(place) = self.joints.iter().position(|joint| joint.bodies == pair) else { return Ok(()) };
         let Some((index, _)) = self.places[unit] else { return Ok(()) };
-        for body in pair {
+        for body in pair.into_iter().filter(|&body| self.places[body].is_some()) {
             if self.near.count_hit(body, time.value) > ROUNDS_AT_ONCE {
                 let why = format!("{ROUNDS_AT_ONCE} breaks and impacts at one instant");
                 return Err(self.failure_of(&pair, time.value, Failure::AccumulatingImpacts(why)));
@@ -292,7 +298,7 @@ impl Simulation {
         self.parts_of(unit, &mut seeds);
         let hanger = self.hanger(unit);
         self.joints.remove(place);
-        self.parted.push(pair);
+        self.parted.push((pair, time.value));
         if self.unit(pair[0]) == unit {
             self.cut_flight(index, time, record)?;
             self.split(index, &side, hanger, &motions[0], time)

@@ -185,9 +185,9 @@ pub struct Simulation {
     together_number: u64,
     /// Units that have stuck to what is fixed, for good.
     stuck: Vec<usize>,
-    /// What holds bodies together that have stuck, and pairs that have come off and not stuck again.
+    /// What holds bodies together that have stuck; and pairs that have come off and not stuck again, and when [s].
     joints: Vec<joints::Joint>,
-    parted: Vec<[usize; 2]>,
+    parted: Vec<([usize; 2], f64)>,
     /// Pairs that the laws of contact let go at the instant under consideration, and how fast they open [m/s].
     released: Vec<([usize; 2], f64)>,
     /// The last bounces of each pair, and when they would end [s].

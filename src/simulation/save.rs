@@ -38,7 +38,7 @@ struct Saved {
     /// What each body of the scene flies as.
     units: Vec<usize>,
     joints: Vec<Joint>,
-    parted: Vec<[usize; 2]>,
+    parted: Vec<([usize; 2], f64)>,
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
@@ -143,7 +143,14 @@ impl Simulation {
         simulation.joined.clear();
         simulation.return_units(&saved.units).ok_or_else(belongs)?;
         let knows = |body: &usize| *body < plan.bodies().len();
-        if !saved.joints.iter().map(|joint| &joint.bodies).chain(&saved.parted).flatten().all(knows) {
+        if !saved
+            .joints
+            .iter()
+            .map(|joint| &joint.bodies)
+            .chain(saved.parted.iter().map(|(pair, _)| pair))
+            .flatten()
+            .all(knows)
+        {
             return Err(belongs());
         }
         if saved.lanes.len() != simulation.lanes.len() {
