@@ -23,8 +23,8 @@ mod saved;
 pub enum EventKind {
     /// A body rebounded.
     Bounce,
-    /// A body stuck to another: to a fixed one, where it stops, or to one that moves, and both are one body from
-    /// here on.
+    /// A body stuck to another: to a fixed one, where it stops, to one on a prescribed motion, with which it moves, or
+    /// to a free one, and both are one body from here on.
     Stick,
     /// What had stuck came off: its joint carried more than the pair's breaking load. Each piece goes on with the
     /// motion that it has.
@@ -663,7 +663,7 @@ impl Trajectory {
 
 /// Nodes and weights of Gauss's rule with 5 points on 0..1 (Abramowitz, Stegun 1964, table 25.4).
 #[rustfmt::skip]
-const GAUSS: [(f64, f64); 5] = [
+pub(crate) const GAUSS: [(f64, f64); 5] = [
     (0.046910077030668004, 0.118463442528094544),
     (0.230765344947158454, 0.239314335249683234),
     (0.5,                  0.284444444444444444),

@@ -226,7 +226,8 @@
 //! Such a body is where its motion says, whatever it meets: a turntable, a conveyor, a lift, a bat. `position` and
 //! `orientation` are those at time 0. It needs a shape and no mass; what it does to others is the `work` in the
 //! energies of the run. Others bounce off it, rest on it, slide and are carried along. No effect and no event
-//! names it, and nothing sticks to it.
+//! names it. What sticks to it rides on it, until it runs into what no force moves, or something stays in contact with
+//! what rides: there a run ends by name.
 //!
 //! ```toml
 //! [[bodies]]

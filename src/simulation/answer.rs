@@ -74,7 +74,7 @@ impl Simulation {
         iterations: u32,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
-        // bodies that stick to each other become one, pair by pair
+        // bodies that stick to each other become one, and what sticks to what is moved rides on it, pair by pair
         let (mut seeds, mut iterations) = (seeds.to_vec(), iterations);
         let (mut cluster, scales) = loop {
             let mut cluster = self.whole_cluster(&seeds, time)?;
@@ -82,8 +82,13 @@ impl Simulation {
             let scales = self.scales(&cluster, time);
             self.check_moved(&cluster, &scales, time)?;
             self.check_joints(&cluster, time)?;
-            let Some(pair) = self.sticking(&cluster, &scales) else { break (cluster, scales) };
-            self.merge(&cluster, pair, time, iterations, record)?;
+            if let Some(pair) = self.sticking(&cluster, &scales) {
+                self.merge(&cluster, pair, time, iterations, record)?;
+            } else if let Some(pair) = self.boarding(&cluster, &scales) {
+                self.board(&cluster, pair, time, iterations, record)?;
+            } else {
+                break (cluster, scales);
+            }
             self.iterations += u64::from(iterations);
             iterations = 0;
             seeds = self.bodies_of(&cluster);
@@ -385,7 +390,7 @@ impl Simulation {
         lanes.sort_unstable();
         for &lane in &lanes {
             let leads = self.lanes[lane].spec.members.iter().any(|&body| {
-                cluster.place(body).is_some_and(|place| modes[place] == Mode::Lead && !self.is_stuck(body))
+                cluster.place(body).is_some_and(|place| modes[place] == Mode::Lead && !self.is_driven(body))
             });
             self.begin_flight(lane, time, cluster, leads, record)?;
         }
@@ -404,6 +409,7 @@ impl Simulation {
                 }
             }
             self.wake_at_switch(lane, time);
+            self.wake_at_jump(lane, time);
         }
         self.released.clear();
         self.joined.clear();

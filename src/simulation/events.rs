@@ -67,6 +67,7 @@ impl Simulation {
                 }
                 What::Wake { body, number } => {
                     if self.flight_number(body) == number {
+                        self.jump(body, due.time);
                         self.answer(&[body], due.time, 0, record)?;
                     }
                 }
@@ -293,6 +294,12 @@ impl Simulation {
     /// The motion of a body at an instant within its open step.
     pub(super) fn motion_at(&self, body: usize, time: Time) -> BodyMotion {
         let Some((lane, member)) = self.places[body] else { return self.body(body).motion_at(time) };
+        if let Some(driver) = self.driver_of(body) {
+            let whole = &self.lanes[lane].motions[0];
+            let carrier =
+                BodyMotion { mass: whole.mass, inertia_body: whole.inertia_body, ..self.carrier(driver, time) };
+            return self.part_motion(body, &carrier);
+        }
         self.motions_at(lane, time)[member]
     }
 

@@ -107,13 +107,13 @@ impl Simulation {
                 continue;
             }
             for (hangs, other) in [(a, b), (b, a)] {
-                if self.is_stuck(hangs)
-                    && !self.is_stuck(other)
+                if self.is_driven(hangs)
+                    && !self.is_driven(other)
                     && !self.body(other).fixed
                     && let Some(joint) = self.weak_joint(self.unit(hangs))
                 {
                     let other = &self.body(other).name;
-                    let why = format!("{other} sticks to what has stuck to a fixed body, and {joint}");
+                    let why = format!("{other} sticks to what has stuck to something fixed or moved, and {joint}");
                     return Err(self.failure_of(&[a, b], time.value, Failure::LastingContact(why)));
                 }
             }
@@ -152,8 +152,9 @@ impl Simulation {
         let of = |i: &usize| self.places[*i].map(|(_, place)| place);
         let sides: Vec<(usize, Load)> = side.iter().filter_map(of).map(|place| (place, loads[place])).collect();
         let unit = self.unit(joint.bodies[1]);
-        let (whole, acceleration) = if self.is_stuck(unit) {
-            (of(&joint.bodies[1]).map_or(motions[0], |place| motions[place]), Acceleration::zero())
+        let (whole, acceleration) = if self.is_driven(unit) {
+            let single = of(&joint.bodies[1]).filter(|_| self.lanes[index].compound.is_none());
+            (motions[single.unwrap_or(0)], Acceleration::zero())
         } else {
             gather(&self.lanes[index].charts, motions, &mut loads);
             let body = ClusterBody::free(&motions[0], &self.body(unit).properties.inv_inertia());
@@ -187,22 +188,28 @@ impl Simulation {
 
     /// Where a step of a lane must end for its loads to be watched [s].
     pub(super) fn watch_limit(&self, index: usize) -> f64 {
-        if self.joints.is_empty() || !self.units_of(index).iter().any(|&unit| self.breakable(unit).next().is_some()) {
+        let is_watched = |&unit: &usize| self.driver_of(unit).is_some() || self.breakable(unit).next().is_some();
+        if self.joints.is_empty() || !self.units_of(index).iter().any(is_watched) {
             return f64::INFINITY;
         }
+        let pace = self.pace(index);
+        let calls_user = self.spec_of(index).bindings.iter().any(|b| matches!(*b.effect, AnyEffect::User(_)));
+        let watched = calls_user && self.end.is_finite();
+        let longest = if watched { self.plan.first_step(self.end - self.time) } else { f64::INFINITY };
+        self.lanes[index].flight.front() + longest.min(if pace > 0.0 { STEP / pace } else { f64::INFINITY })
+    }
+
+    /// How fast the bodies of a lane turn, or a load on them swings [rad/s].
+    pub(super) fn pace(&self, index: usize) -> f64 {
         let lane = &self.lanes[index];
         let mut motions = lane.motions.clone();
         lane.flight.at(lane.flight.front(), &mut motions);
-        let mut pace = motions.iter().map(|motion| motion.angular_velocity.norm()).fold(0.0, f64::max);
-        let mut longest = f64::INFINITY;
-        for binding in &lane.spec.bindings {
-            match &*binding.effect {
-                AnyEffect::Wrench(wrench) => pace = pace.max(wrench.angular_frequency.map_or(0.0, f64::abs)),
-                AnyEffect::User(_) if self.end.is_finite() => longest = self.plan.first_step(self.end - self.time),
-                _ => {}
-            }
-        }
-        lane.flight.front() + longest.min(if pace > 0.0 { STEP / pace } else { f64::INFINITY })
+        let turns = motions.iter().map(|motion| motion.angular_velocity.norm());
+        let swings = self.spec_of(index).bindings.iter().filter_map(|binding| match &*binding.effect {
+            AnyEffect::Wrench(wrench) => wrench.angular_frequency.map(f64::abs),
+            _ => None,
+        });
+        turns.chain(swings).fold(0.0, f64::max)
     }
 
     /// Looks in the last step of a lane for the first instant at which a joint carries more than it bears, and makes
@@ -303,6 +310,10 @@ impl Simulation {
             self.cut_flight(index, time, record)?;
             self.split(index, &side, hanger, &motions[0], time)
                 .map_err(|error| self.failure_of(&pair, time.value, Failure::Refused(error.to_string())))?;
+        } else if self.driver_of(unit).is_some() {
+            self.cut_flight(index, time, record)?;
+            self.split(index, &seeds, None, &motions[0], time)
+                .map_err(|error| self.failure_of(&pair, time.value, Failure::Refused(error.to_string())))?;
         } else {
             self.stuck.retain(|&stuck| stuck != unit);
             self.lanes[index].held.retain(|&held| held != unit);
@@ -311,7 +322,8 @@ impl Simulation {
         self.answer(&seeds, time, 0, record)
     }
 
-    /// Makes two units of a compound, one of them of these bodies; that which hangs on something fixed stays there.
+    /// Makes two units of a compound, one of them of these bodies; that which hangs on something fixed or moved stays
+    /// there.
     fn split(
         &mut self,
         index: usize,
@@ -323,8 +335,9 @@ impl Simulation {
         let Some(compound) = self.lanes[index].compound else { return Ok(()) };
         let parts = self.compounds[compound].parts.clone();
         let unit = self.plan.bodies().len() + compound;
-        let was_stuck = self.is_stuck(unit);
+        let (was_stuck, driver) = (self.is_stuck(unit), self.driver_of(unit));
         self.stuck.retain(|&stuck| stuck != unit);
+        self.riders.retain(|(rider, _)| *rider != unit);
 
         // what is known of the user's events goes with the parts that they are measured of
         let mut watchers = self.lanes[index].watchers.clone().into_iter();
@@ -336,9 +349,17 @@ impl Simulation {
             let watchers: Vec<Watcher> = own().flat_map(|(_, watched)| watched.clone()).collect();
             let number = self.lanes[index].number + 1;
             let own: Vec<Part> = own().map(|(part, _)| part.clone()).collect();
+            let Some(first) = own.first() else { continue };
+            if let Some(driver) = driver
+                && own.iter().any(|part| Some(part.body) == hanger)
+            {
+                let parts: Vec<_> = own.iter().map(|part| (part.body, part.pose)).collect();
+                self.ride(&parts, driver, time, (number, watchers))?;
+                continue;
+            }
             self.let_go(&own, whole, time, (number, watchers))?;
             if was_stuck && own.iter().any(|part| Some(part.body) == hanger) {
-                self.stuck.push(self.unit(own[0].body));
+                self.stuck.push(self.unit(first.body));
             }
         }
         Ok(())
@@ -377,7 +398,7 @@ impl Simulation {
         let center: Vector3 = parts.iter().map(weighted).sum();
         let moved = |part: &Part| (part.body, Pose { position: part.pose.position - center, ..part.pose });
         let parts: Vec<_> = parts.iter().map(moved).collect();
-        self.join(&parts, time)?;
+        self.join(&parts, false, time)?;
         let position = whole.point(&center);
         let motion = BodyMotion { position, velocity: whole.velocity_at(&position), ..*whole };
         self.stand(&motion, time, number, watchers);
@@ -400,12 +421,14 @@ impl Simulation {
         let Ok(closest) = self.closest(a, b, Time::new(now)) else { return 0.0 };
         let acceleration = |body: usize| {
             let unit = self.unit(body);
-            let Some((lane, member)) = self.places[unit].filter(|_| !self.is_stuck(body)) else {
-                return Vector3::zeros();
+            let motion = self.motion_at(unit, Time::new(now));
+            let free = match self.places[unit].filter(|_| !self.is_driven(body)) {
+                None => self.unmoved_acceleration(unit, &motion),
+                Some((lane, _)) => {
+                    let body = ClusterBody::free(&motion, &self.body(unit).properties.inv_inertia());
+                    Acceleration::free(&body, &self.load_on(lane, &motion, self.moment(lane, now)))
+                }
             };
-            let motion = self.lanes[lane].motions[member];
-            let body = ClusterBody::free(&motion, &self.body(unit).properties.inv_inertia());
-            let free = Acceleration::free(&body, &self.load_on(lane, &motion, self.moment(lane, now)));
             let (w, arm) = (motion.angular_velocity, closest.point_b - motion.position);
             free.linear + free.angular.cross(&arm) + w.cross(&w.cross(&arm))
         };

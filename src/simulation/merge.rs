@@ -34,7 +34,7 @@ pub(super) struct Stuck {
 }
 
 /// The closest features seen from the other body.
-fn swapped(closest: &ClosestFeatures) -> ClosestFeatures {
+pub(super) fn swapped(closest: &ClosestFeatures) -> ClosestFeatures {
     ClosestFeatures {
         point_a: closest.point_b,
         point_b: closest.point_a,
@@ -100,12 +100,12 @@ impl Simulation {
 
     /// Whether two bodies of the scene may meet.
     pub(super) fn may_meet(&self, a: usize, b: usize) -> bool {
-        self.unit(a) != self.unit(b) && self.plan.may_meet(a, b)
+        self.unit(a) != self.unit(b) && self.plan.may_meet(a, b) && !self.ride_together(a, b)
     }
 
-    /// Whether nothing moves a body: it is fixed, or has stuck to what is.
-    fn is_anchored(&self, body: usize) -> bool {
-        self.body(body).fixed || self.is_stuck(body)
+    /// Whether no force moves a body: it is fixed or moved, or has stuck to what is.
+    pub(super) fn is_anchored(&self, body: usize) -> bool {
+        self.body(body).fixed || self.is_driven(body)
     }
 
     /// Stops the units that stick to what does not move.
@@ -209,7 +209,7 @@ impl Simulation {
         let before = self.motions_of(cluster, pair, &cluster.motions);
         let watchers: Vec<_> = units.iter().filter_map(|&unit| self.places[unit]).collect();
         let watchers = watchers.into_iter().flat_map(|(lane, _)| self.lanes[lane].watchers.clone()).collect();
-        if let Err(error) = self.join(&parts, time) {
+        if let Err(error) = self.join(&parts, false, time) {
             return Err(self.failure_of(&pair, time.value, Failure::Refused(error.to_string())));
         }
 
@@ -235,15 +235,15 @@ impl Simulation {
     }
 
     /// Makes a compound of these bodies of the scene, with a lane of its own in which nothing moves yet.
-    pub(super) fn join(&mut self, parts: &[(usize, Pose)], time: Time) -> Result<()> {
+    pub(super) fn join(&mut self, parts: &[(usize, Pose)], rides: bool, time: Time) -> Result<()> {
         let (whole, at) = (self.places.len(), self.lanes.len());
-        let compound = self.plan.compound(whole, parts)?;
+        let compound = self.plan.compound(whole, parts, rides)?;
         let charts = self.plan.compound_charts(&compound, false)?;
         let others = compound.spec.members[1..].iter().map(|&i| self.body(i).start);
         let motions: Vec<BodyMotion> = std::iter::once(compound.body.start).chain(others).collect();
         let flight = Box::new(Led::new(charts.clone(), time, &motions));
         let group = compound.parts.first().map_or(0, |part| part.group);
-        let lane = Lane::new(group, compound.spec.clone(), flight, charts, motions, time.value);
+        let lane = Lane::new(group, compound.flown(), flight, charts, motions, time.value);
         self.lanes.push(Lane { compound: Some(self.compounds.len()), ..lane });
         self.places.push(Some((at, 0)));
         self.units.push(whole);

@@ -37,6 +37,7 @@ mod near;
 mod observe;
 mod path;
 mod predict;
+mod riding;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
@@ -185,6 +186,8 @@ pub struct Simulation {
     together_number: u64,
     /// Units that have stuck to what is fixed, for good.
     stuck: Vec<usize>,
+    /// Units that ride, and the bodies on prescribed motions that they ride on.
+    riders: Vec<(usize, usize)>,
     /// What holds bodies together that have stuck; and pairs that have come off and not stuck again, and when [s].
     joints: Vec<joints::Joint>,
     parted: Vec<([usize; 2], f64)>,
@@ -312,6 +315,7 @@ impl Simulation {
             together: Vec::new(),
             together_number: 0,
             stuck: Vec::new(),
+            riders: Vec::new(),
             joints: Vec::new(),
             parted: Vec::new(),
             released: Vec::new(),
@@ -473,6 +477,7 @@ impl Simulation {
     fn finish_step(&mut self, index: usize, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
         let Some(switch) = self.lanes[index].pending.take() else { return Ok(()) };
         self.observe(index)?;
+        self.book_ride(index);
         let lane = &mut self.lanes[index];
         let front = lane.flight.front();
         if let Some(run) = record.as_mut() {

@@ -15,6 +15,7 @@ use crate::freedom::Chart;
 use crate::integrator::{Control, Counts, Front, Segment};
 use crate::math::Pose;
 use crate::math::sum::Time;
+use crate::plan::Compound;
 use crate::scene::{RunOptions, Scene, Span};
 use crate::state::BodyMotion;
 use crate::trajectory::{Event, Heat};
@@ -33,10 +34,11 @@ struct Saved {
     together: Vec<Option<Together>>,
     together_number: u64,
     stuck: Vec<usize>,
-    /// Compounds in the order of their making: their parts, and where these stand in them.
-    compounds: Vec<Vec<(usize, Pose)>>,
+    /// Compounds in the order of their making: whether they ride, their parts, and where these stand in them.
+    compounds: Vec<(bool, Vec<(usize, Pose)>)>,
     /// What each body of the scene flies as.
     units: Vec<usize>,
+    riders: Vec<(usize, usize)>,
     joints: Vec<Joint>,
     parted: Vec<([usize; 2], f64)>,
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
@@ -90,7 +92,8 @@ impl Simulation {
             switched: lane.switched.clone(),
         });
         let compounds = self.compounds.iter();
-        let compounds = compounds.map(|compound| compound.parts.iter().map(|part| (part.body, part.pose)).collect());
+        let parts = |compound: &Compound| compound.parts.iter().map(|part| (part.body, part.pose)).collect();
+        let compounds = compounds.map(|compound| (compound.rides, parts(compound)));
         let saved = Saved {
             bryla: VERSION.to_owned(),
             scene: self.plan.scene().clone(),
@@ -104,6 +107,7 @@ impl Simulation {
             stuck: self.stuck.clone(),
             compounds: compounds.collect(),
             units: self.units[..self.plan.bodies().len()].to_vec(),
+            riders: self.riders.clone(),
             joints: self.joints.clone(),
             parted: self.parted.clone(),
             bounces: self.bounces.clone(),
@@ -134,15 +138,20 @@ impl Simulation {
         let span = Span { start: saved.time, end: f64::INFINITY };
         let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)), Grain::FINE)?;
         let belongs = || file_error(path, &"its state does not belong to its scene");
-        for parts in saved.compounds {
-            if parts.len() < 2 || parts.iter().any(|(body, _)| plan.bodies().get(*body).is_none_or(|body| body.fixed)) {
+        for (rides, parts) in saved.compounds {
+            if parts.len() < if rides { 1 } else { 2 }
+                || parts.iter().any(|(body, _)| plan.bodies().get(*body).is_none_or(|body| body.fixed))
+            {
                 return Err(belongs());
             }
-            simulation.join(&parts, Time::new(saved.time))?;
+            simulation.join(&parts, rides, Time::new(saved.time))?;
         }
         simulation.joined.clear();
         simulation.return_units(&saved.units).ok_or_else(belongs)?;
         let knows = |body: &usize| *body < plan.bodies().len();
+        if saved.riders.iter().any(|(unit, driver)| *unit >= simulation.places.len() || !knows(driver)) {
+            return Err(belongs());
+        }
         if !saved
             .joints
             .iter()
@@ -165,6 +174,7 @@ impl Simulation {
         simulation.together = saved.together;
         simulation.together_number = saved.together_number;
         simulation.stuck = saved.stuck;
+        simulation.riders = saved.riders;
         simulation.joints = saved.joints;
         simulation.parted = saved.parted;
         simulation.bounces = saved.bounces;

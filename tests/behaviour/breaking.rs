@@ -387,6 +387,6 @@ fn what_is_not_watched_is_refused_by_name() {
     assert_eq!(
         refused(&scene([floor, first, second])),
         "LastingContact: the bodies stay in contact, which cannot be followed further: second sticks to what has stuck \
-         to a fixed body, and first may come off floor"
+         to something fixed or moved, and first may come off floor"
     );
 }
