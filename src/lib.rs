@@ -76,7 +76,7 @@ pub mod trajectory;
 
 pub use batch::Batch;
 pub use compare::{CompareOptions, ComparisonTable};
-pub use contact::Response;
+pub use contact::{BreakingLoad, Response};
 pub use effect::{
     AnyEffect, Drag, Effect, Frame, PointGravity, Schedule, Spring, Switch, Thruster, UniformGravity, UserEffect,
     Wrench,

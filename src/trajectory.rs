@@ -23,9 +23,12 @@ mod saved;
 pub enum EventKind {
     /// A body rebounded.
     Bounce,
-    /// A body stuck to another: to a fixed one, where it stops, or to one that moves, and both are one body from
-    /// here on.
+    /// A body stuck to another: to a fixed one, where it stops, to one on a prescribed motion, with which it moves, or
+    /// to a free one, and both are one body from here on.
     Stick,
+    /// What had stuck came off: its joint carried more than the pair's breaking load. Each piece goes on with the
+    /// motion that it has.
+    Break,
     /// Bodies stay in contact from here on: they slide, roll or tip on each other.
     Contact,
     /// Bodies rest on each other from here on, in equilibrium, until something hits them or a load changes.
@@ -42,6 +45,7 @@ impl EventKind {
         match self {
             Self::Bounce => "bounce",
             Self::Stick => "stick",
+            Self::Break => "break",
             Self::Contact => "contact",
             Self::Rest => "rest",
             Self::User => "user",
@@ -65,12 +69,17 @@ pub struct Event {
     /// The two bodies a and b, as places in the scene; the first and the last of a user's event or a switch, to
     /// which nothing of the below applies.
     pub bodies: [usize; 2],
-    /// Where the impulse acts [m]: the point of contact, or the centroid of several, weighted by their impulses.
+    /// Where the impulse acts [m]: the point of contact, or the centroid of several, weighted by their impulses; of a
+    /// break the joint, the mean of the points in which they touched.
     pub point: Vector3,
-    /// Unit normal from a to b.
+    /// Unit normal from a to b; of a break, as it was when they stuck, turned with b.
     pub normal: Vector3,
     /// Impulse on b [N·s]; −1 times that on a.
     pub impulse: Vector3,
+    /// Force of a on b that the joint carried when it broke [N].
+    pub force: Vector3,
+    /// Torque of a on b about the joint when it broke [N·m].
+    pub torque: Vector3,
     /// Which features of a and b touched, in words.
     pub features: String,
     /// Rounds that the finder took to locate it.
@@ -118,6 +127,8 @@ impl Event {
             point: nothing,
             normal: nothing,
             impulse: nothing,
+            force: nothing,
+            torque: nothing,
             features: String::new(),
             iterations: 0,
             velocity: [nothing; 2],
@@ -652,7 +663,7 @@ impl Trajectory {
 
 /// Nodes and weights of Gauss's rule with 5 points on 0..1 (Abramowitz, Stegun 1964, table 25.4).
 #[rustfmt::skip]
-const GAUSS: [(f64, f64); 5] = [
+pub(crate) const GAUSS: [(f64, f64); 5] = [
     (0.046910077030668004, 0.118463442528094544),
     (0.230765344947158454, 0.239314335249683234),
     (0.5,                  0.284444444444444444),

@@ -1163,6 +1163,9 @@ class Body:
         Coefficient of restitution, 0 to 1 [-]; a pair has the larger of both.
     response : {"bounce", "stick"}
         What happens when it touches another body.
+    breaking_load : (float, float), optional
+        Force [N] and torque about the point of contact [N·m] under which what it sticks to, or what sticks to it,
+        comes off; of a pair the weaker counts. math.inf bears any.
     fixed : bool
         Whether it stays where it is.
     motion : Prescribed, optional
@@ -1190,6 +1193,7 @@ class Body:
         friction: _Number = 0.0,
         restitution: _Number = 0.0,
         response: _Response = "bounce",
+        breaking_load: _Numbers | None = None,
         fixed: bool = False,
         motion: Prescribed | None = None,
         freedom: _Freedom = "free",
@@ -1250,6 +1254,10 @@ class Body:
     @property
     def response(self) -> _Response:
         """What happens when it touches another body: "bounce" or "stick"."""
+
+    @property
+    def breaking_load(self) -> tuple[float, float] | None:
+        """Force [N] and torque [N·m] under which what has stuck comes off, or None."""
 
     @property
     def fixed(self) -> bool:
@@ -1765,7 +1773,9 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What: "bounce", "stick", "contact" (they stay in contact and move), "rest", "user" or "switch"."""
+        """What: "bounce", "stick", "break" (what had stuck came off), "contact" (they stay in contact and move), "rest",
+        "user" or "switch".
+        """
 
     @property
     def name(self) -> str:
@@ -1785,7 +1795,7 @@ class Event:
 
     @property
     def point(self) -> _Array:
-        """Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several."""
+        """Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several; of a break the joint."""
 
     @property
     def normal(self) -> _Array:
@@ -1794,6 +1804,14 @@ class Event:
     @property
     def impulse(self) -> _Array:
         """Impulse on the second body [N·s]: array (3,)."""
+
+    @property
+    def force(self) -> _Array:
+        """Force of the first body on the second that their joint carried when it broke [N]: array (3,)."""
+
+    @property
+    def torque(self) -> _Array:
+        """Torque of the first body on the second about the joint when it broke [N·m]: array (3,)."""
 
     @property
     def features(self) -> str:

@@ -1,7 +1,7 @@
 //! Bodies, and their motion at an instant.
 
 use bryla::math::quaternion;
-use bryla::{Body, BodyMotion, Freedom, Prescribed, Response, Shape};
+use bryla::{Body, BodyMotion, BreakingLoad, Freedom, Prescribed, Response, Shape};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
@@ -45,6 +45,9 @@ plain_class! {
     ///     Coefficient of restitution, 0 to 1 [-]; a pair has the larger of both.
     /// response : {"bounce", "stick"}
     ///     What happens when it touches another body.
+    /// breaking_load : (float, float), optional
+    ///     Force [N] and torque about the point of contact [N·m] under which what it sticks to, or what sticks to it,
+    ///     comes off; of a pair the weaker counts. math.inf bears any.
     /// fixed : bool
     ///     Whether it stays where it is.
     /// motion : Prescribed, optional
@@ -56,9 +59,9 @@ plain_class! {
     class "Body" PyBody(Body)
     (name, shape=None, *, density=None, mass=None, inertia=None, position=None, origin=None,
      orientation=Numbers([1.0, 0.0, 0.0, 0.0]), velocity=None, angular_velocity=None, angular_velocity_body=None,
-     friction=0.0, restitution=0.0, response=Response::Bounce.to_python(), fixed=false, motion=None,
+     friction=0.0, restitution=0.0, response=Response::Bounce.to_python(), breaking_load=None, fixed=false, motion=None,
      freedom=AnyFreedom(Freedom::Free), collides=true)
-    as "(name, shape=None, *, density=None, mass=None, inertia=None, position=None, origin=None, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None, angular_velocity=None, angular_velocity_body=None, friction=0.0, restitution=0.0, response='bounce', fixed=False, motion=None, freedom='free', collides=True)"
+    as "(name, shape=None, *, density=None, mass=None, inertia=None, position=None, origin=None, orientation=(1.0, 0.0, 0.0, 0.0), velocity=None, angular_velocity=None, angular_velocity_body=None, friction=0.0, restitution=0.0, response='bounce', breaking_load=None, fixed=False, motion=None, freedom='free', collides=True)"
     {
         /// A name that no other body of the scene has.
         name: String,
@@ -88,6 +91,8 @@ plain_class! {
         restitution: f64,
         /// What happens when it touches another body: "bounce" or "stick".
         response: Response,
+        /// Force [N] and torque [N·m] under which what has stuck comes off, or None.
+        breaking_load: Option<BreakingLoad>,
         /// Whether it stays where it is.
         fixed: bool,
         /// The motion that it is moved along, or None.

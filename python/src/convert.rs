@@ -3,7 +3,7 @@
 use bryla::contact::collision::Law;
 use bryla::effect::Frame;
 use bryla::math::{Matrix3, Vector3};
-use bryla::{Direction, Finder, Orientation, Record, Response, Schedule};
+use bryla::{BreakingLoad, Direction, Finder, Orientation, Record, Response, Schedule};
 use numpy::{AllowTypeChange, IxDyn, PyArray1, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -163,6 +163,18 @@ impl Plain for Schedule {
 
     fn from_python(value: List<Numbers<2>>) -> Result<Self> {
         Ok(Self(value.0.into_iter().map(|Numbers([time, factor])| (time, factor)).collect()))
+    }
+}
+
+impl Plain for BreakingLoad {
+    type Value = Numbers<2>;
+
+    fn to_python(&self) -> Numbers<2> {
+        Numbers([self.force, self.torque])
+    }
+
+    fn from_python(Numbers([force, torque]): Numbers<2>) -> Result<Self> {
+        Ok(Self::new(force, torque))
     }
 }
 

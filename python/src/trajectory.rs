@@ -482,7 +482,8 @@ impl PyEvent {
         self.event.time
     }
 
-    /// What: "bounce", "stick", "contact" (they stay in contact and move), "rest", "user" or "switch".
+    /// What: "bounce", "stick", "break" (what had stuck came off), "contact" (they stay in contact and move), "rest",
+    /// "user" or "switch".
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.name()
@@ -508,7 +509,7 @@ impl PyEvent {
         self.bodies.clone()
     }
 
-    /// Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several.
+    /// Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several; of a break the joint.
     #[getter]
     fn point<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         convert::vector(py, &self.event.point)
@@ -524,6 +525,18 @@ impl PyEvent {
     #[getter]
     fn impulse<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         convert::vector(py, &self.event.impulse)
+    }
+
+    /// Force of the first body on the second that their joint carried when it broke [N]: array (3,).
+    #[getter]
+    fn force<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        convert::vector(py, &self.event.force)
+    }
+
+    /// Torque of the first body on the second about the joint when it broke [N·m]: array (3,).
+    #[getter]
+    fn torque<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        convert::vector(py, &self.event.torque)
     }
 
     /// Which features of the two bodies touched, in words.

@@ -1,7 +1,10 @@
 """Contact in runs, against closed forms."""
 
+import math
+
 import bryla
 import numpy as np
+import pytest
 
 
 def ball(name, radius, mass, **rest):
@@ -55,3 +58,37 @@ def test_a_box_is_carried_along_by_a_conveyor_that_starts_to_run():
     np.testing.assert_allclose(run["belt"].velocity[-1], (u, 0, 0), atol=0)
     np.testing.assert_allclose(run["belt"].position[-1], (0.8 * u, 0, -0.1), atol=1e-15)
     np.testing.assert_allclose(run.energy.work[-1], m * u**2, atol=1e-6)
+
+
+def test_a_body_that_hangs_on_a_ceiling_falls_when_it_is_pulled_too_hard():
+    # it sticks before t = 0.1; m g + F sin(w (t - 0.1)) = f_max from there on
+    m, g, f, w, most = 2.0, 10.0, 30.0, 0.8, 45.0
+    scene = bryla.Scene()
+    scene.add_effect(bryla.UniformGravity((0, 0, -g)))
+    pull = bryla.Wrench("cube", force=(0, 0, -f), angular_frequency=w, phase=-0.1 * w, schedule=[(0.1, 1.0)])
+    scene.add_effect(pull)
+    ceiling = bryla.HalfSpace(normal=(0, 0, -1), offset=-1.0)
+    scene.add(bryla.Body("ceiling", ceiling, fixed=True, breaking_load=(most, math.inf)))
+    cube = bryla.Cuboid((0.1, 0.1, 0.1))
+    start = {"position": (0.3, 0.2, 0.8), "velocity": (0, 0, 2.0)}
+    scene.add(bryla.Body("cube", cube, mass=m, response="stick", breaking_load=(50.0, 9.0), **start))
+    assert "cube–ceiling: stick, up to 45 N and 9 N·m; time of contact by guaranteed" in scene.explain()
+    run = scene.run((0, 1.8), tolerance=1e-9)
+    stick, event = run.events
+    assert (stick.kind, event.kind, event.bodies) == ("stick", "break", ("ceiling", "cube"))
+    np.testing.assert_allclose(event.time, 0.1 + math.asin((most - m * g) / f) / w, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(event.force, (0, 0, most), rtol=0, atol=1e-9)
+    np.testing.assert_allclose(event.torque, 0, atol=1e-9)
+    np.testing.assert_allclose(event.point, (0.3, 0.2, 1), rtol=0, atol=1e-11)
+    assert run["cube"].velocity[-1, 2] < -1
+
+
+def test_a_breaking_load_is_a_force_and_a_torque():
+    body = ball("ball", 0.1, 1.0, breaking_load=(3, math.inf))
+    assert body.breaking_load == (3.0, math.inf)
+    assert ball("ball", 0.1, 1.0).breaking_load is None
+    scene = bryla.Scene()
+    with pytest.raises(bryla.Error, match=r"body ball: breaking_load.force must be a number > 0, or left out, got -1"):
+        scene.add(ball("ball", 0.1, 1.0, breaking_load=(-1, 2)))
+    with pytest.raises(TypeError, match="2 numbers wanted"):
+        ball("ball", 0.1, 1.0, breaking_load=3)

@@ -23,7 +23,7 @@ use crate::plan::cost::{BodyKind, CostTable};
 use crate::scene::{Orientation, RunOptions, Scene, Span};
 use crate::simulation::{Progress, RunError};
 use crate::text::short;
-use crate::trajectory::{Event, Trajectory};
+use crate::trajectory::{Event, EventKind, Trajectory};
 
 /// Everything went well.
 const DONE: i32 = 0;
@@ -341,6 +341,10 @@ fn line_of(run: &Trajectory, event: &Event) -> String {
         return format!("  {:<10} t = {} s, {}\n", event.name, short(event.time), passage.name());
     }
     let [first, second] = event.bodies.map(|i| run.plan().bodies()[i].name.as_str());
+    if event.kind == EventKind::Break {
+        let (time, force, torque) = (short(event.time), short(event.force.norm()), short(event.torque.norm()));
+        return format!("  {:<10} t = {time} s, {first}–{second}: under {force} N, {torque} N·m\n", event.kind.name());
+    }
     format!(
         "  {:<10} t = {} s, {first}–{second}, {}: impulse {} N·s, {} J lost\n",
         event.kind.name(),

@@ -13,6 +13,7 @@
 //! | [`cluster`] | the bodies and contacts of one instant |
 //! | [`collision`] | impact: every contact of the cluster at once, with restitution and friction |
 //! | [`stick`] | merging bodies into one |
+//! | [`joint`] | what holds them together, and how much it bears |
 //! | [`accumulation`] | when bounces have no end but a last instant |
 //! | [`rest`] | forces of contacts that last |
 //! | [`anchor`] | where a contact that lasts goes when its bodies move |
@@ -35,6 +36,7 @@ pub mod broad_phase;
 pub mod cluster;
 pub mod collision;
 mod friction;
+pub mod joint;
 pub mod manifold;
 mod patch;
 mod problem;
@@ -42,6 +44,8 @@ mod reflection;
 pub mod rest;
 pub mod solver;
 pub mod stick;
+
+pub use joint::BreakingLoad;
 
 use crate::math::Vector3;
 

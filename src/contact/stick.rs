@@ -157,21 +157,3 @@ impl Member {
         Riding { pose: self.pose }.motion(whole, &BodyMotion::at_rest(mass, inertia_body))
     }
 }
-
-/// The load under which a joint breaks: data of a scene, read by whoever knows the joint's load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct BreakingLoad {
-    /// Largest force that the joint carries [N].
-    pub force: f64,
-    /// Largest torque about the point of contact that it carries [N·m].
-    pub torque: f64,
-}
-
-impl BreakingLoad {
-    /// Whether the joint gives way to this force [N] and torque [N·m].
-    pub fn is_exceeded(&self, force: &Vector3, torque: &Vector3) -> bool {
-        force.norm() > self.force || torque.norm() > self.torque
-    }
-}

@@ -23,6 +23,8 @@ pub(super) fn write(run: &Trajectory) -> Result<String> {
                 "point": event.point.as_slice(),
                 "normal": event.normal.as_slice(),
                 "impulse": event.impulse.as_slice(),
+                "force": event.force.as_slice(),
+                "torque": event.torque.as_slice(),
                 "features": event.features,
                 "iterations": event.iterations,
                 "energy_lost": event.energy_lost,

@@ -453,6 +453,9 @@
 //! centre of mass, and the sum of the tensors moved there by the parallel-axis rule. The kinetic energy
 //! lost is reported.
 //!
+//! **Break** (beyond): a joint carries the force `f = Σ (m a − F)` and the torque about it, summed over the bodies on one
+//! of its sides; where either exceeds the pair's breaking load they part, with the motions that they have.
+//!
 //! **Rest** (Signorini): `gap ≥ 0`, `f_n ≥ 0`, `gap · f_n = 0`, and the same for `u_n` where the gap is closed.
 //!
 //! **Friction** (Coulomb): `|f_t| ≤ μ f_n`, a sliding force against the sliding velocity; in an impact
@@ -460,7 +463,7 @@
 //!
 //! In a run all bodies that touch at an instant are answered at once. Bounces that come ever faster end when
 //! their geometric series does; what has no speed left along the normal then rests, slides, rolls or tips by
-//! the forces of contact. A body that sticks to a fixed one stops there; two that stick to each other go on as
+//! the forces of contact. A body that sticks to a fixed one stops there, to a moved one rides on it; two that stick to each other go on as
 //! one, in closed form where gravity alone acts. Where this version cannot follow a contact, the run ends in
 //! [`LastingContact`](crate::simulation::Failure::LastingContact) with all that was computed.
 //!
@@ -470,6 +473,7 @@
 //! | rest, sliding | [`contact::rest::rest`](crate::contact::rest::rest) |
 //! | accumulation | [`contact::accumulation`](crate::contact::accumulation) |
 //! | stick | [`contact::stick::stick`](crate::contact::stick::stick), of two that move [`contact::stick::merge`](crate::contact::stick::merge) |
+//! | load of a joint | [`contact::joint::carried`](crate::contact::joint::carried) |
 //! | sum of tensors | [`MassProperties::combined`](crate::mass::MassProperties::combined) |
 //! | restitution of a pair | [`Material::of_pair`](crate::contact::Material::of_pair) |
 //! | what happened | [`Event`](crate::trajectory::Event) |

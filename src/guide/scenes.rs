@@ -70,6 +70,7 @@
 //! | `friction` | – | 0 | coefficient of friction μ, ≥ 0; a pair has the geometric mean of both |
 //! | `restitution` | – | 0 | coefficient of restitution, 0 to 1; a pair has the larger of both |
 //! | `response` | | `"bounce"` | `"bounce"` or `"stick"`; a pair sticks if either body says so |
+//! | `breaking_load` | N, N·m | never | `force` and `torque` under which what has stuck comes off; of a pair the weaker counts |
 //! | `fixed` | | `false` | whether the body stays where it is |
 //! | `motion` | | absent | the motion that the body is moved along; see [Prescribed motion](#prescribed-motion) |
 //! | `freedom` | | `"free"` | how it may move; see [Freedom](#freedom) |
@@ -81,7 +82,11 @@
 //! Every two bodies with shapes, of which one can move, may meet, until one of them says
 //! `collides = false`. Free bodies bounce off each other and off fixed ones, with friction; they rest, slide,
 //! roll and tip on each other. What sticks to a fixed body stops; two that stick to each other are one body from
-//! there on, which flies, bounces and sticks as one, while each keeps its name in events and samples. Bodies of
+//! there on, which flies, bounces and sticks as one, while each keeps its name in events and samples. What the point
+//! of contact must carry for them to stay together follows from their motion and from what acts on them; where this
+//! exceeds the `force`, or the `torque` about that point, both sides go on as they move, and stick again where they
+//! meet again at a speed. A blow lasts no time and breaks nothing. What may come off cannot stay in contact with
+//! others, nor carry what sticks to it while it hangs on something fixed: such a run ends by name. Bodies of
 //! fewer freedoms must not collide, which is refused by name. A run ends, with all that was computed, where a curve
 //! that is neither ball nor cylinder rolls, and where a body sticks that an effect joins to others in flight.
 //!
@@ -221,7 +226,8 @@
 //! Such a body is where its motion says, whatever it meets: a turntable, a conveyor, a lift, a bat. `position` and
 //! `orientation` are those at time 0. It needs a shape and no mass; what it does to others is the `work` in the
 //! energies of the run. Others bounce off it, rest on it, slide and are carried along. No effect and no event
-//! names it, and nothing sticks to it.
+//! names it. What sticks to it rides on it, until it runs into what no force moves, or something stays in contact with
+//! what rides: there a run ends by name.
 //!
 //! ```toml
 //! [[bodies]]

@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom, Riding};
 use crate::integrator::Method;
 use crate::mass::MassProperties;
-use crate::math::{Pose, Vector3};
+use crate::math::{Matrix3, Pose, Vector3};
 use crate::scene::Orientation;
 use crate::state::BodyMotion;
 
@@ -27,6 +27,8 @@ pub(crate) struct Compound {
     /// the merge; it has no shape but those of its parts.
     pub(crate) body: PlannedBody,
     pub(crate) parts: Vec<Part>,
+    /// Whether it rides on a moved body: its centre is a point of that, and no load moves it.
+    pub(crate) rides: bool,
     /// What flies: the compound, then the members of its parts' groups.
     pub(crate) spec: Arc<FlightGroup>,
 }
@@ -48,7 +50,7 @@ impl Plan {
     ///
     /// # Errors
     /// A body that an effect joins to others in flight, or whose loads the state switches.
-    pub(crate) fn compound(&self, place: usize, bodies: &[(usize, Pose)]) -> Result<Compound> {
+    pub(crate) fn compound(&self, place: usize, bodies: &[(usize, Pose)], rides: bool) -> Result<Compound> {
         let name = bodies.iter().map(|&(i, _)| self.bodies[i].name.as_str()).collect::<Vec<_>>().join(" + ");
         let solids: Vec<MassProperties> = bodies
             .iter()
@@ -58,7 +60,9 @@ impl Plan {
             })
             .collect();
         let whole = MassProperties::combined(&solids);
-        let properties = MassProperties { center_of_mass: Vector3::zeros(), ..whole };
+        // what is moved turns as its driver does, whatever its moments
+        let inertia = if rides { Matrix3::identity() } else { whole.inertia };
+        let properties = MassProperties { center_of_mass: Vector3::zeros(), inertia, ..whole };
         let radius = bodies.iter().map(|(i, pose)| pose.position.norm() + self.bodies[*i].radius).fold(0.0, f64::max);
 
         // the groups of the parts, one behind the other
@@ -100,7 +104,8 @@ impl Plan {
         let mut spec =
             FlightGroup { members, bindings, has_kinks, method, why, switches, watches, toggles, meets: true };
         let first = self.options.method.or(flown);
-        spec.method = match (spec.pulls_alike(&parts), self.options.method) {
+        spec.method = match (rides || spec.pulls_alike(&parts), self.options.method) {
+            _ if rides => Method::Exact,
             (true, None) => Method::Exact,
             (false, Some(Method::Exact)) => {
                 let reason = format!("exact: what acts on {name} has no closed form; leave the method out");
@@ -111,7 +116,7 @@ impl Plan {
         let start = BodyMotion::at_rest(properties.mass, properties.inertia);
         let (freedom, fixed, motion, collider) = (Freedom::Free, false, None, None);
         let body = PlannedBody { name, properties, freedom, fixed, motion, start, radius, collider };
-        Ok(Compound { body, parts, spec: Arc::new(spec) })
+        Ok(Compound { body, parts, rides, spec: Arc::new(spec) })
     }
 
     /// The coordinates of a compound and its parts, of which `rests` tells that nothing moves.
@@ -125,6 +130,16 @@ impl Plan {
             charts.extend(members.iter().map(|&i| if i == part.body { riding.clone() } else { Chart::Fixed }));
         }
         Ok(charts)
+    }
+}
+
+impl Compound {
+    /// What flies of it: a rider does not feel its loads.
+    pub(crate) fn flown(&self) -> Arc<FlightGroup> {
+        if !self.rides {
+            return self.spec.clone();
+        }
+        Arc::new(FlightGroup { bindings: Vec::new(), has_kinks: false, ..(*self.spec).clone() })
     }
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{FlightGroup, Plan};
+use crate::contact::BreakingLoad;
 use crate::freedom::Chart;
 use crate::text::{counted, short};
 
@@ -86,7 +87,18 @@ impl Plan {
                 let material = self.material(a, b);
                 let what = match material.response {
                     crate::contact::Response::Bounce => format!("bounce, restitution {}", short(material.restitution)),
-                    crate::contact::Response::Stick => "stick".to_owned(),
+                    crate::contact::Response::Stick => match self.breaking_load([a, b]) {
+                        load if !load.is_finite() => "stick".to_owned(),
+                        BreakingLoad { force, torque } if torque.is_infinite() => {
+                            format!("stick, up to {} N", short(force))
+                        }
+                        BreakingLoad { force, torque } if force.is_infinite() => {
+                            format!("stick, up to {} N·m", short(torque))
+                        }
+                        BreakingLoad { force, torque } => {
+                            format!("stick, up to {} N and {} N·m", short(force), short(torque))
+                        }
+                    },
                 };
                 let friction = match material.friction {
                     0.0 => String::new(),

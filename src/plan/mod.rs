@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::closest::Collider;
-use crate::contact::Material;
+use crate::contact::{BreakingLoad, Material};
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom, Prescribed};
@@ -27,7 +27,7 @@ mod method;
 mod series;
 mod watch;
 
-pub(crate) use compound::Compound;
+pub(crate) use compound::{Compound, Part};
 pub use group::{Any, Group};
 pub(crate) use watch::Toggle;
 
@@ -600,6 +600,12 @@ impl Plan {
             let body = &self.scene.bodies[i];
             (body.restitution, body.friction, body.response)
         }))
+    }
+
+    /// The load under which two bodies that have stuck come apart.
+    pub(crate) fn breaking_load(&self, pair: [usize; 2]) -> BreakingLoad {
+        let of = |i: usize| self.scene.bodies[i].breaking_load.unwrap_or(BreakingLoad::NEVER);
+        of(pair[0]).weaker(&of(pair[1]))
     }
 
     /// Whether two bodies may meet.

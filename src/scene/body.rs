@@ -1,5 +1,6 @@
 //! A body as the user describes it.
 
+use crate::contact::BreakingLoad;
 pub use crate::contact::Response;
 use crate::error::{Error, Result};
 use crate::freedom::{Freedom, Prescribed};
@@ -54,6 +55,10 @@ pub struct Body {
     /// What happens when it touches another body.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_bounce"))]
     pub response: Response,
+    /// The load under which what it sticks to, or what sticks to it, comes off; of a pair the weaker counts. Never, if
+    /// absent.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub breaking_load: Option<BreakingLoad>,
     /// Whether it stays where it is.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "std::ops::Not::not"))]
     pub fixed: bool,
@@ -128,6 +133,7 @@ impl Body {
             friction: 0.0,
             restitution: 0.0,
             response: Response::Bounce,
+            breaking_load: None,
             fixed: false,
             motion: None,
             freedom: Freedom::Free,
@@ -212,6 +218,13 @@ impl Body {
         self
     }
 
+    /// The load under which what it sticks to, or what sticks to it, comes off.
+    #[must_use]
+    pub fn breaking_load(mut self, load: BreakingLoad) -> Self {
+        self.breaking_load = Some(load);
+        self
+    }
+
     /// Makes it stay where it is.
     #[must_use]
     pub fn fixed(mut self) -> Self {
@@ -266,7 +279,7 @@ impl Body {
         if !(0.0..=1.0).contains(&self.restitution) {
             return Err(Error::value(place, "restitution", "between 0 and 1", self.restitution));
         }
-        Ok(())
+        self.breaking_load.map_or(Ok(()), |load| load.validate(&place))
     }
 
     fn validate_mass(&self, place: &str) -> Result<()> {

@@ -28,7 +28,7 @@ use crate::trajectory::{Event, EventKind, Heat, Trajectory};
 
 /// Impacts of one body at one instant after which it is said to be caught [-]. Two planes that answer each
 /// other with e < 1 are done to rounding after about 50.
-const ROUNDS_AT_ONCE: u32 = 64;
+pub(super) const ROUNDS_AT_ONCE: u32 = 64;
 /// Height of a bounce below which there is none, as a fraction of the pair's size [-]. Larger: bodies come to
 /// rest earlier, by the time of the bounces that are left out. Smaller: more bounces, each half as high.
 const REST_RISE: f64 = 1.0e-10;
@@ -74,15 +74,21 @@ impl Simulation {
         iterations: u32,
         record: &mut Option<&mut Trajectory>,
     ) -> Result<(), SimulationError> {
-        // bodies that stick to each other become one, pair by pair
+        // bodies that stick to each other become one, and what sticks to what is moved rides on it, pair by pair
         let (mut seeds, mut iterations) = (seeds.to_vec(), iterations);
         let (mut cluster, scales) = loop {
             let mut cluster = self.whole_cluster(&seeds, time)?;
             self.lift(&mut cluster);
             let scales = self.scales(&cluster, time);
             self.check_moved(&cluster, &scales, time)?;
-            let Some(pair) = self.sticking(&cluster, &scales) else { break (cluster, scales) };
-            self.merge(&cluster, pair, time, iterations, record)?;
+            self.check_joints(&cluster, time)?;
+            if let Some(pair) = self.sticking(&cluster, &scales) {
+                self.merge(&cluster, pair, time, iterations, record)?;
+            } else if let Some(pair) = self.boarding(&cluster, &scales) {
+                self.board(&cluster, pair, time, iterations, record)?;
+            } else {
+                break (cluster, scales);
+            }
             self.iterations += u64::from(iterations);
             iterations = 0;
             seeds = self.bodies_of(&cluster);
@@ -90,7 +96,7 @@ impl Simulation {
         let before = cluster.motions.clone();
 
         // those that stick to what is fixed stop; the others are answered all at once
-        let stuck = self.stick(&mut cluster);
+        let stuck = self.stick(&mut cluster, scales.small);
         self.book_stuck(&cluster, &before, stuck, time, iterations);
         let bounced = self.collide(&mut cluster, &scales, time, iterations)?;
         if bounced {
@@ -384,7 +390,7 @@ impl Simulation {
         lanes.sort_unstable();
         for &lane in &lanes {
             let leads = self.lanes[lane].spec.members.iter().any(|&body| {
-                cluster.place(body).is_some_and(|place| modes[place] == Mode::Lead && !self.is_stuck(body))
+                cluster.place(body).is_some_and(|place| modes[place] == Mode::Lead && !self.is_driven(body))
             });
             self.begin_flight(lane, time, cluster, leads, record)?;
         }
@@ -403,6 +409,7 @@ impl Simulation {
                 }
             }
             self.wake_at_switch(lane, time);
+            self.wake_at_jump(lane, time);
         }
         self.released.clear();
         self.joined.clear();

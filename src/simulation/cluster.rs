@@ -177,7 +177,7 @@ impl Simulation {
 
     /// A body of a cluster as contacts meet it.
     pub(super) fn cluster_body(&self, body: usize, motion: &BodyMotion) -> ClusterBody {
-        if self.places[body].is_none() || self.is_stuck(body) {
+        if self.places[body].is_none() || self.is_driven(body) {
             return ClusterBody::driven(motion);
         }
         ClusterBody::free(motion, &self.body(body).properties.inv_inertia())

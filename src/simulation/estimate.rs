@@ -85,6 +85,14 @@ fn first_mismatch(fine: &Trajectory, coarse: &Trajectory) -> f64 {
     pairs.dedup();
     let mut first = f64::INFINITY;
     for pair in pairs {
+        // what comes off in one run only
+        let breaks = |run: &Trajectory| -> Vec<f64> {
+            let own = run.events().iter().filter(|e| e.bodies == pair && e.kind == EventKind::Break && e.time <= end);
+            own.map(|e| e.time).collect()
+        };
+        let (a, b) = (breaks(fine), breaks(coarse));
+        first = a.get(b.len()).or(b.get(a.len())).map_or(first, |time| first.min(*time));
+
         let of = |run: &Trajectory| -> Vec<(f64, f64)> {
             let own = run.events().iter().filter(|e| e.bodies == pair && e.kind == EventKind::Bounce && e.time <= end);
             own.map(|e| (e.time, jump(e))).filter(|(_, jump)| *jump > SMALLEST * largest).collect()

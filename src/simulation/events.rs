@@ -60,8 +60,14 @@ impl Simulation {
                         self.answer(&bodies, due.time, 0, record)?;
                     }
                 }
+                What::Break { bodies, flight } => {
+                    if self.flight_number(bodies[1]) == flight {
+                        self.break_joint(bodies, due.time, record)?;
+                    }
+                }
                 What::Wake { body, number } => {
                     if self.flight_number(body) == number {
+                        self.jump(body, due.time);
                         self.answer(&[body], due.time, 0, record)?;
                     }
                 }
@@ -235,6 +241,7 @@ impl Simulation {
     /// lie apart. Of other bodies it is 0.
     fn leaving(&self, a: usize, b: usize, now: f64, eps: f64) -> f64 {
         let Some((_, opening)) = self.released.iter().find(|(pair, _)| *pair == [a, b]) else { return 0.0 };
+        let parting = if self.parts_at([a, b], now) { self.parting(a, b, now) } else { 0.0 };
         let (mut acceleration, mut speed) = (Vector3::zeros(), 0.0);
         for (body, sign) in [(a, -1.0), (b, 1.0)] {
             let unit = self.unit(body);
@@ -255,7 +262,7 @@ impl Simulation {
             speed += motion.velocity.norm() + motion.angular_velocity.norm() * self.body(unit).radius;
         }
         let by_speed = if *opening > 0.0 { LEAVES * eps / opening } else { f64::INFINITY };
-        let pull = acceleration.norm();
+        let pull = if parting > 0.0 { parting } else { acceleration.norm() };
         let by_load = if pull > 0.0 { (2.0 * LEAVES * eps / pull).sqrt() } else { f64::INFINITY };
         let longest = if speed > 0.0 { TOUCH_GAP * self.size(a, b) / speed } else { f64::INFINITY };
         let time = by_speed.min(by_load);
@@ -287,6 +294,17 @@ impl Simulation {
     /// The motion of a body at an instant within its open step.
     pub(super) fn motion_at(&self, body: usize, time: Time) -> BodyMotion {
         let Some((lane, member)) = self.places[body] else { return self.body(body).motion_at(time) };
+        if let Some(driver) = self.driver_of(body) {
+            let whole = &self.lanes[lane].motions[0];
+            let carrier =
+                BodyMotion { mass: whole.mass, inertia_body: whole.inertia_body, ..self.carrier(driver, time) };
+            return self.part_motion(body, &carrier);
+        }
+        self.motions_at(lane, time)[member]
+    }
+
+    /// The motions of the members of a lane at an instant within its open step.
+    pub(super) fn motions_at(&self, lane: usize, time: Time) -> Vec<BodyMotion> {
         let lane = &self.lanes[lane];
         let mut motions = lane.motions.clone();
         if lane.pending.is_some() {
@@ -294,7 +312,7 @@ impl Simulation {
         } else {
             lane.flight.at(time.value, &mut motions);
         }
-        motions[member]
+        motions
     }
 
     /// How many flights the body has begun.

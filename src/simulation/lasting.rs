@@ -16,6 +16,7 @@ use crate::effect::AnyEffect;
 use crate::freedom::riding::{follow, gather};
 use crate::math::sum::Time;
 use crate::math::{Vector3, quaternion};
+use crate::plan::FlightGroup;
 use crate::state::{BodyMotion, Load, Moment};
 use crate::trajectory::Heat;
 
@@ -71,6 +72,14 @@ impl Simulation {
         let slow = scales.rest.max(scales.small);
         let near: Vec<usize> =
             (0..cluster.contacts.len()).filter(|&i| cluster.approach(&cluster.contacts[i]) >= -slow).collect();
+        let rides = |i: &&usize| {
+            let touched = [cluster.contacts[**i].a, cluster.contacts[**i].b].map(|place| cluster.bodies[place]);
+            touched.iter().any(|&unit| self.driver_of(unit).is_some())
+        };
+        if let Some(&contact) = near.iter().find(rides) {
+            let why = "one of them rides on a body that moves as prescribed";
+            return Err(self.lasting(cluster, &cluster.contacts[contact], time, why));
+        }
         let mut parts = Vec::new();
         for (places, contacts) in self.joined(cluster, &near) {
             let slides: Vec<Option<Vector3>> = contacts.iter().map(|&i| self.slide(cluster, scales, i)).collect();
@@ -84,6 +93,13 @@ impl Simulation {
                 && let Some(name) = places.iter().find_map(|&place| self.switched_load(cluster.bodies[place]))
             {
                 let why = format!("{name} is switched by the state, which is not watched in a contact that lasts");
+                return Err(self.lasting(cluster, &cluster.contacts[contact], time, &why));
+            }
+            let touched = kept_contacts.iter().flat_map(|&i| [cluster.contacts[i].a, cluster.contacts[i].b]);
+            if let Some(&contact) = kept_contacts.first()
+                && let Some(joint) = touched.map(|place| cluster.bodies[place]).find_map(|unit| self.weak_joint(unit))
+            {
+                let why = format!("{joint}, whose load is not watched in a contact that lasts");
                 return Err(self.lasting(cluster, &cluster.contacts[contact], time, &why));
             }
             self.still_contacts(cluster, &places, &held, &kept, scales, time);
@@ -155,7 +171,7 @@ impl Simulation {
     /// The moving bodies that contacts join, part by part, with their contacts.
     fn joined(&self, cluster: &Cluster, contacts: &[usize]) -> Vec<(Vec<usize>, Vec<usize>)> {
         let moves =
-            |place: usize| self.places[cluster.bodies[place]].is_some() && !self.is_stuck(cluster.bodies[place]);
+            |place: usize| self.places[cluster.bodies[place]].is_some() && !self.is_driven(cluster.bodies[place]);
         let mut leader: Vec<usize> = (0..cluster.bodies.len()).collect();
         for &i in contacts {
             let (a, b) = (cluster.contacts[i].a, cluster.contacts[i].b);
@@ -228,7 +244,7 @@ impl Simulation {
         let mut free = Vec::new();
         for (&body, cluster_body) in cluster.bodies.iter().zip(&bodies) {
             free.push(match self.places[body] {
-                Some((lane, _)) if !self.is_stuck(body) => Acceleration::free(
+                Some((lane, _)) if !self.is_driven(body) => Acceleration::free(
                     cluster_body,
                     &self.load_on(lane, &cluster_body.motion, self.moment(lane, time.value)),
                 ),
@@ -253,17 +269,31 @@ impl Simulation {
     }
 
     /// The load on the moving member of a lane that moves so.
-    pub(super) fn load_on(&self, lane: usize, motion: &BodyMotion, at: Moment) -> Load {
-        let lane = &self.lanes[lane];
-        let spec = &lane.spec;
-        let moving = spec.members.iter().position(|&i| !self.body(i).fixed).unwrap_or(0);
+    pub(super) fn load_on(&self, index: usize, motion: &BodyMotion, at: Moment) -> Load {
+        let lane = &self.lanes[index];
+        let moving = lane.spec.members.iter().position(|&i| !self.body(i).fixed).unwrap_or(0);
         let mut motions = lane.motions.clone();
         motions[moving] = *motion;
         follow(&lane.charts, &mut motions);
+        let mut total = self.loads_on(index, &motions, at);
+        gather(&lane.charts, &motions, &mut total);
+        total[moving]
+    }
+
+    /// What acts on a lane: also on what rides, though it does not feel it.
+    pub(super) fn spec_of(&self, lane: usize) -> &FlightGroup {
+        let lane = &self.lanes[lane];
+        lane.compound.map_or(&lane.spec, |compound| &self.compounds[compound].spec)
+    }
+
+    /// The loads of all effects on the members of a lane that move so.
+    pub(super) fn loads_on(&self, lane: usize, motions: &[BodyMotion], at: Moment) -> Vec<Load> {
+        let spec = self.spec_of(lane);
+        let lane = &self.lanes[lane];
         let mut total = vec![Load::zero(); motions.len()];
         let off = lane.loads_off(spec);
         for binding in spec.bindings.iter().filter(|binding| !off.contains(&binding.effect_index)) {
-            let seen = binding.seen(&motions);
+            let seen = binding.seen(motions);
             let mut loads = vec![Load::zero(); seen.len()];
             binding.effect.as_effect().add_to(at, &seen, &mut loads);
             for (&member, own) in binding.members.iter().zip(&loads) {
@@ -271,8 +301,7 @@ impl Simulation {
                 total[member].torque += own.torque;
             }
         }
-        gather(&lane.charts, &motions, &mut total);
-        total[moving]
+        total
     }
 
     /// The moment `t` [s] of a lane, behind the last switch.

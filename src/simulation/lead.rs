@@ -308,7 +308,7 @@ impl Simulation {
         h: f64,
     ) -> Result<(Vec<BodyMotion>, f64, f64), SimulationError> {
         // half way, with the momenta of the start, and then with what the loads add to them
-        let moves = |body: usize| self.places[body].filter(|_| !self.is_stuck(body));
+        let moves = |body: usize| self.places[body].filter(|_| !self.is_driven(body));
         let inverse = |body: usize, motion: &BodyMotion, l: &Vector3| {
             let own = motion.rotation.tr_mul(l);
             motion.rotation * (self.body(body).properties.inv_inertia() * own)

@@ -17,7 +17,6 @@ use crate::contact::stick::{Merged, merge, stick};
 use crate::contact::{Answer, Response};
 use crate::error::Result;
 use crate::freedom::Riding;
-use crate::freedom::riding::follow;
 use crate::math::Pose;
 use crate::math::sum::Time;
 use crate::plan::PlannedBody;
@@ -30,10 +29,12 @@ pub(super) struct Stuck {
     bodies: [usize; 2],
     answer: Answer,
     closest: ClosestFeatures,
+    /// Where they touch, as places in the cluster's list.
+    contacts: std::ops::Range<usize>,
 }
 
 /// The closest features seen from the other body.
-fn swapped(closest: &ClosestFeatures) -> ClosestFeatures {
+pub(super) fn swapped(closest: &ClosestFeatures) -> ClosestFeatures {
     ClosestFeatures {
         point_a: closest.point_b,
         point_b: closest.point_a,
@@ -99,16 +100,16 @@ impl Simulation {
 
     /// Whether two bodies of the scene may meet.
     pub(super) fn may_meet(&self, a: usize, b: usize) -> bool {
-        self.unit(a) != self.unit(b) && self.plan.may_meet(a, b)
+        self.unit(a) != self.unit(b) && self.plan.may_meet(a, b) && !self.ride_together(a, b)
     }
 
-    /// Whether nothing moves a body: it is fixed, or has stuck to what is.
-    fn is_anchored(&self, body: usize) -> bool {
-        self.body(body).fixed || self.is_stuck(body)
+    /// Whether no force moves a body: it is fixed or moved, or has stuck to what is.
+    pub(super) fn is_anchored(&self, body: usize) -> bool {
+        self.body(body).fixed || self.is_driven(body)
     }
 
     /// Stops the units that stick to what does not move.
-    pub(super) fn stick(&mut self, cluster: &mut Cluster) -> Vec<Stuck> {
+    pub(super) fn stick(&mut self, cluster: &mut Cluster, small: f64) -> Vec<Stuck> {
         let mut stuck = Vec::new();
         for touching in &cluster.touching {
             let [a, b] = touching.bodies;
@@ -119,10 +120,12 @@ impl Simulation {
             };
             let unit = self.unit(bodies[1]);
             if self.plan.material(a, b).response == Response::Stick
+                && (!self.has_parted(bodies) || self.may_stick(cluster, touching, small))
                 && let Some(place) = cluster.place(unit)
             {
                 let answer = stick(&mut cluster.motions[place]);
-                stuck.push(Stuck { bodies, answer, closest });
+                let contacts = touching.contacts.clone();
+                stuck.push(Stuck { bodies, answer, closest, contacts });
                 self.stuck.push(unit);
             }
         }
@@ -138,9 +141,10 @@ impl Simulation {
         time: Time,
         iterations: u32,
     ) {
-        for Stuck { bodies, answer, closest } in stuck {
+        for Stuck { bodies, answer, closest, contacts } in stuck {
             let Some([was_a, was_b]) = self.motions_of(cluster, bodies, before) else { continue };
             let Some([a, b]) = self.motions_of(cluster, bodies, &cluster.motions) else { continue };
+            self.add_joint((bodies, &b), &closest, &cluster.contacts[contacts]);
             self.events.push(Event {
                 point: closest.point_b,
                 normal: closest.normal,
@@ -157,10 +161,9 @@ impl Simulation {
     pub(super) fn sticking(&self, cluster: &Cluster, scales: &ContactScales) -> Option<usize> {
         cluster.touching.iter().position(|touching| {
             let [a, b] = touching.bodies;
-            let mut contacts = cluster.contacts[touching.contacts.clone()].iter();
             self.plan.material(a, b).response == Response::Stick
                 && ![a, b].iter().any(|&i| self.is_anchored(i))
-                && contacts.any(|contact| cluster.approach(contact) >= -scales.small)
+                && self.may_stick(cluster, touching, scales.small)
         })
     }
 
@@ -206,22 +209,17 @@ impl Simulation {
         let before = self.motions_of(cluster, pair, &cluster.motions);
         let watchers: Vec<_> = units.iter().filter_map(|&unit| self.places[unit]).collect();
         let watchers = watchers.into_iter().flat_map(|(lane, _)| self.lanes[lane].watchers.clone()).collect();
-        if let Err(error) = self.join(&parts, time) {
+        if let Err(error) = self.join(&parts, false, time) {
             return Err(self.failure_of(&pair, time.value, Failure::Refused(error.to_string())));
         }
 
         // its lane stands here
-        let (bodies, whole) = (touching.bodies, self.lanes.len() - 1);
-        let lane = &mut self.lanes[whole];
-        let template = &mut lane.motions[0];
-        *template = BodyMotion { mass: template.mass, inertia_body: template.inertia_body, ..motion };
-        follow(&lane.charts, &mut lane.motions);
-        lane.flight = Box::new(Led::new(lane.charts.clone(), time, &lane.motions));
-        (lane.number, lane.watchers) = (number, watchers);
+        self.stand(&motion, time, number, watchers);
+        let whole = self.lanes[self.lanes.len() - 1].motions[0];
+        let after = pair.map(|i| self.part_motion(i, &whole));
+        self.add_joint((pair, &after[1]), &touching.closest, &cluster.contacts[touching.contacts.clone()]);
 
         // one event, under the names of the two that touched
-        let whole = self.lanes[whole].motions[0];
-        let after = bodies.map(|i| self.part_motion(i, &whole));
         if let Some([was_a, was_b]) = before {
             self.events.push(Event {
                 point: touching.closest.point_b,
@@ -237,15 +235,15 @@ impl Simulation {
     }
 
     /// Makes a compound of these bodies of the scene, with a lane of its own in which nothing moves yet.
-    pub(super) fn join(&mut self, parts: &[(usize, Pose)], time: Time) -> Result<()> {
+    pub(super) fn join(&mut self, parts: &[(usize, Pose)], rides: bool, time: Time) -> Result<()> {
         let (whole, at) = (self.places.len(), self.lanes.len());
-        let compound = self.plan.compound(whole, parts)?;
+        let compound = self.plan.compound(whole, parts, rides)?;
         let charts = self.plan.compound_charts(&compound, false)?;
         let others = compound.spec.members[1..].iter().map(|&i| self.body(i).start);
         let motions: Vec<BodyMotion> = std::iter::once(compound.body.start).chain(others).collect();
         let flight = Box::new(Led::new(charts.clone(), time, &motions));
         let group = compound.parts.first().map_or(0, |part| part.group);
-        let lane = Lane::new(group, compound.spec.clone(), flight, charts, motions, time.value);
+        let lane = Lane::new(group, compound.flown(), flight, charts, motions, time.value);
         self.lanes.push(Lane { compound: Some(self.compounds.len()), ..lane });
         self.places.push(Some((at, 0)));
         self.units.push(whole);

@@ -27,6 +27,7 @@ pub(crate) mod clock;
 mod cluster;
 pub(crate) mod estimate;
 mod events;
+mod joints;
 mod lasting;
 mod lead;
 mod led;
@@ -36,6 +37,7 @@ mod near;
 mod observe;
 mod path;
 mod predict;
+mod riding;
 mod run;
 #[cfg(feature = "serde")]
 mod save;
@@ -88,6 +90,9 @@ pub enum Failure {
     /// A user's event happens ever faster.
     #[error("AccumulatingEvents: event {0} happens again and again without end, ever faster")]
     AccumulatingEvents(String),
+    /// The load of a joint is too rough a function of time for the instant to be told at which it breaks.
+    #[error("UnresolvedBreak: the load of their joint must be a smooth function of time")]
+    UnresolvedBreak,
     /// The scene cannot be set up.
     #[error("{0}")]
     Refused(String),
@@ -173,7 +178,7 @@ pub struct Simulation {
     compounds: Vec<Compound>,
     /// What each body flies as: itself, or the compound that it is part of.
     units: Vec<usize>,
-    /// Compounds that were made at the instant under consideration.
+    /// Units that were made, or have come off, at the instant under consideration.
     joined: Vec<usize>,
     near: Near,
     /// Bodies that stay in contact and move, part by part.
@@ -181,6 +186,11 @@ pub struct Simulation {
     together_number: u64,
     /// Units that have stuck to what is fixed, for good.
     stuck: Vec<usize>,
+    /// Units that ride, and the bodies on prescribed motions that they ride on.
+    riders: Vec<(usize, usize)>,
+    /// What holds bodies together that have stuck; and pairs that have come off and not stuck again, and when [s].
+    joints: Vec<joints::Joint>,
+    parted: Vec<([usize; 2], f64)>,
     /// Pairs that the laws of contact let go at the instant under consideration, and how fast they open [m/s].
     released: Vec<([usize; 2], f64)>,
     /// The last bounces of each pair, and when they would end [s].
@@ -305,6 +315,9 @@ impl Simulation {
             together: Vec::new(),
             together_number: 0,
             stuck: Vec::new(),
+            riders: Vec::new(),
+            joints: Vec::new(),
+            parted: Vec::new(),
             released: Vec::new(),
             bounces: Vec::new(),
             events: Vec::new(),
@@ -422,6 +435,7 @@ impl Simulation {
     /// known where someone looks at it.
     fn take_step(&mut self, index: usize, record: &Option<&mut Trajectory>) -> Result<(), SimulationError> {
         let plan = self.plan.clone();
+        let watched = self.watch_limit(index);
         let lane = &mut self.lanes[index];
         let spec = lane.spec.clone();
         let front = lane.flight.front();
@@ -434,7 +448,7 @@ impl Simulation {
                 .flatten();
             let begun = lane.begin_switched(&spec);
             let turn = lane.ahead.map_or(f64::INFINITY, |ahead| ahead.time);
-            let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY)).min(turn);
+            let limit = switch.min(self.end).min(lane.kink.unwrap_or(f64::INFINITY)).min(turn).min(watched);
             if let Err(error) = lane.flight.advance(limit) {
                 return Err(self.failure(index, front, error.into()));
             }
@@ -456,13 +470,14 @@ impl Simulation {
             return Err(self.failure(index, front, error.into()));
         }
         self.lanes[index].pending = Some(switch);
-        Ok(())
+        self.find_break(index)
     }
 
     /// Records the step that was taken, up to where an impact may have cut it.
     fn finish_step(&mut self, index: usize, record: &mut Option<&mut Trajectory>) -> Result<(), SimulationError> {
         let Some(switch) = self.lanes[index].pending.take() else { return Ok(()) };
         self.observe(index)?;
+        self.book_ride(index);
         let lane = &mut self.lanes[index];
         let front = lane.flight.front();
         if let Some(run) = record.as_mut() {

@@ -9,7 +9,6 @@ use super::events::WINDOW;
 use super::near::{Due, What};
 use super::path::Path;
 use super::{Failure, Simulation, SimulationError};
-use crate::contact::Response;
 use crate::contact::broad_phase::Aabb;
 use crate::contact::rest::Acceleration;
 use crate::impact::Motion;
@@ -19,8 +18,8 @@ use crate::plan::EPS_ROUNDING;
 use crate::state::BodyMotion;
 
 impl Simulation {
-    /// Refuses what cannot be followed of bodies that are moved: that others stick to them, and that they run into
-    /// what has stuck to a fixed body.
+    /// Refuses what cannot be followed of bodies that are moved, and of what rides on them: that they run into what no
+    /// force moves.
     pub(super) fn check_moved(
         &self,
         cluster: &Cluster,
@@ -29,18 +28,19 @@ impl Simulation {
     ) -> Result<(), SimulationError> {
         for touching in &cluster.touching {
             let [a, b] = touching.bodies;
-            let names = [a, b].map(|i| &self.body(i).name);
-            if self.body(a).motion.is_none() {
+            let mut contacts = cluster.contacts[touching.contacts.clone()].iter();
+            if ![a, b].iter().all(|&i| self.is_anchored(i))
+                || contacts.all(|contact| cluster.approach(contact) <= scales.small)
+            {
                 continue;
             }
-            let mut contacts = cluster.contacts[touching.contacts.clone()].iter();
-            let why = if self.is_stuck(b) && contacts.any(|contact| cluster.approach(contact) > scales.small) {
-                format!("{} moves as prescribed, into {}, which has stuck to a fixed body", names[0], names[1])
-            } else if !self.is_stuck(b) && self.plan.material(a, b).response == Response::Stick {
-                format!("{} sticks to {}, which moves as prescribed", names[1], names[0])
-            } else {
-                continue;
+            let does = |i: usize| match self.driver_of(i) {
+                Some(driver) => format!("{} rides on {}", self.body(i).name, self.body(driver).name),
+                None if self.body(i).motion.is_some() => format!("{} moves as prescribed", self.body(i).name),
+                None if self.is_stuck(i) => format!("{} has stuck to a fixed body", self.body(i).name),
+                None => format!("{} is fixed", self.body(i).name),
             };
+            let why = format!("{}, {}, and they run into each other", does(a), does(b));
             return Err(self.failure_of(&[a, b], time.value, Failure::LastingContact(why)));
         }
         Ok(())

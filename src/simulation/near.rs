@@ -27,6 +27,8 @@ pub(super) enum What {
     Window { body: usize, number: u64 },
     /// The step of this number ends, of bodies that are led together.
     Step { slot: usize, number: u64 },
+    /// The joint of two bodies breaks, if they still fly the flight of this number.
+    Break { bodies: [usize; 2], flight: u64 },
     /// The load of a body that rests jumps, if it still rests in the flight of this number.
     Wake { body: usize, number: u64 },
 }
@@ -40,13 +42,14 @@ pub(super) struct Due {
 }
 
 impl Due {
-    /// Touches before steps before windows, then by body: the order is the same in every run.
+    /// Touches before steps before breaks before windows, then by body: the order is the same in every run.
     fn order(&self) -> (u8, usize, usize) {
         match self.what {
             What::Touch { bodies: [a, b], .. } => (0, a, b),
             What::Step { slot, .. } => (1, slot, 0),
             What::Wake { body, .. } => (2, body, 0),
-            What::Window { body, .. } => (3, body, 0),
+            What::Break { bodies: [a, b], .. } => (3, a, b),
+            What::Window { body, .. } => (4, body, 0),
         }
     }
 }

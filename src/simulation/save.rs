@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::joints::Joint;
 use super::lasting::Together;
 use super::led::Led;
 use super::near::{Due, Window};
@@ -14,6 +15,7 @@ use crate::freedom::Chart;
 use crate::integrator::{Control, Counts, Front, Segment};
 use crate::math::Pose;
 use crate::math::sum::Time;
+use crate::plan::Compound;
 use crate::scene::{RunOptions, Scene, Span};
 use crate::state::BodyMotion;
 use crate::trajectory::{Event, Heat};
@@ -32,8 +34,13 @@ struct Saved {
     together: Vec<Option<Together>>,
     together_number: u64,
     stuck: Vec<usize>,
-    /// Compounds in the order of their making: their parts, and where these stand in them.
-    compounds: Vec<Vec<(usize, Pose)>>,
+    /// Compounds in the order of their making: whether they ride, their parts, and where these stand in them.
+    compounds: Vec<(bool, Vec<(usize, Pose)>)>,
+    /// What each body of the scene flies as.
+    units: Vec<usize>,
+    riders: Vec<(usize, usize)>,
+    joints: Vec<Joint>,
+    parted: Vec<([usize; 2], f64)>,
     bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
@@ -61,7 +68,7 @@ struct SavedLane {
 }
 
 /// Version of the file's layout.
-const VERSION: &str = "state 5";
+const VERSION: &str = "state 6";
 
 impl Simulation {
     /// Writes the running state to a file, conventionally `.bryla`.
@@ -85,7 +92,8 @@ impl Simulation {
             switched: lane.switched.clone(),
         });
         let compounds = self.compounds.iter();
-        let compounds = compounds.map(|compound| compound.parts.iter().map(|part| (part.body, part.pose)).collect());
+        let parts = |compound: &Compound| compound.parts.iter().map(|part| (part.body, part.pose)).collect();
+        let compounds = compounds.map(|compound| (compound.rides, parts(compound)));
         let saved = Saved {
             bryla: VERSION.to_owned(),
             scene: self.plan.scene().clone(),
@@ -98,6 +106,10 @@ impl Simulation {
             together_number: self.together_number,
             stuck: self.stuck.clone(),
             compounds: compounds.collect(),
+            units: self.units[..self.plan.bodies().len()].to_vec(),
+            riders: self.riders.clone(),
+            joints: self.joints.clone(),
+            parted: self.parted.clone(),
             bounces: self.bounces.clone(),
             events: self.events.clone(),
             heat: self.heat.clone(),
@@ -126,13 +138,30 @@ impl Simulation {
         let span = Span { start: saved.time, end: f64::INFINITY };
         let mut simulation = Self::new(plan.clone(), span, plan.controls(&Control::Step(step)), Grain::FINE)?;
         let belongs = || file_error(path, &"its state does not belong to its scene");
-        for parts in saved.compounds {
-            if parts.len() < 2 || parts.iter().any(|(body, _)| plan.bodies().get(*body).is_none_or(|body| body.fixed)) {
+        for (rides, parts) in saved.compounds {
+            if parts.len() < if rides { 1 } else { 2 }
+                || parts.iter().any(|(body, _)| plan.bodies().get(*body).is_none_or(|body| body.fixed))
+            {
                 return Err(belongs());
             }
-            simulation.join(&parts, Time::new(saved.time))?;
+            simulation.join(&parts, rides, Time::new(saved.time))?;
         }
         simulation.joined.clear();
+        simulation.return_units(&saved.units).ok_or_else(belongs)?;
+        let knows = |body: &usize| *body < plan.bodies().len();
+        if saved.riders.iter().any(|(unit, driver)| *unit >= simulation.places.len() || !knows(driver)) {
+            return Err(belongs());
+        }
+        if !saved
+            .joints
+            .iter()
+            .map(|joint| &joint.bodies)
+            .chain(saved.parted.iter().map(|(pair, _)| pair))
+            .flatten()
+            .all(knows)
+        {
+            return Err(belongs());
+        }
         if saved.lanes.len() != simulation.lanes.len() {
             return Err(belongs());
         }
@@ -145,6 +174,9 @@ impl Simulation {
         simulation.together = saved.together;
         simulation.together_number = saved.together_number;
         simulation.stuck = saved.stuck;
+        simulation.riders = saved.riders;
+        simulation.joints = saved.joints;
+        simulation.parted = saved.parted;
         simulation.bounces = saved.bounces;
         simulation.events = saved.events;
         simulation.heat = saved.heat;
@@ -152,6 +184,34 @@ impl Simulation {
         simulation.iterations = saved.iterations;
         simulation.touch_impacts = saved.touch_impacts;
         Ok(simulation)
+    }
+}
+
+impl Simulation {
+    /// Lets every body fly as what it was saved as: itself, or a compound that it has become part of; none where this
+    /// cannot be.
+    fn return_units(&mut self, units: &[usize]) -> Option<()> {
+        let bodies = self.plan.bodies().len();
+        if units.len() != bodies {
+            return None;
+        }
+        for (body, &unit) in units.iter().enumerate() {
+            let lane = match unit.checked_sub(bodies) {
+                None if unit == body => self.plan.groups().iter().position(|group| group.members.contains(&body)),
+                None => return None,
+                Some(compound) => {
+                    let is_part = self.compounds.get(compound)?.parts.iter().any(|part| part.body == body);
+                    Some(self.places.get(unit).copied().flatten()?.0).filter(|_| is_part)
+                }
+            };
+            self.units[body] = unit;
+            if self.places[body].is_some() {
+                let lane = lane?;
+                let place = self.lanes[lane].spec.members.iter().position(|&member| member == body)?;
+                self.places[body] = Some((lane, place));
+            }
+        }
+        Some(())
     }
 }
 

@@ -64,6 +64,11 @@ fn every_mistake_in_a_body_has_its_message() {
         ),
         ("restitution = -0.1", "body die: restitution must be between 0 and 1, got -0.1"),
         ("restitution = 1.5", "body die: restitution must be between 0 and 1, got 1.5"),
+        ("breaking_load.force = 0.0", "body die: breaking_load.force must be a number > 0, or left out, got 0.0"),
+        (
+            "breaking_load = { force = 1.0, torque = nan }",
+            "body die: breaking_load.torque must be a number > 0, or left out, got NaN",
+        ),
         ("friction = -1.0", "body die: friction must be a finite number ≥ 0, got -1.0"),
         (
             "fixed = true\nvelocity = [1, 0, 0]",
@@ -250,7 +255,7 @@ fn unknown_keys_are_shown_with_line_caret_and_the_allowed_names() {
     let text = told("[[bodies]]\nname = \"die\"\nmas = 1.0\n");
     assert_eq!(
         text,
-        "scene: TOML parse error at line 3, column 1\n  |\n3 | mas = 1.0\n  | ^^^\nunknown field `mas`, expected one of `name`, `shape`, `density`, `mass`, `inertia`, `position`, `origin`, `orientation`, `velocity`, `angular_velocity`, `angular_velocity_body`, `friction`, `restitution`, `response`, `fixed`, `motion`, `freedom`, `collides`"
+        "scene: TOML parse error at line 3, column 1\n  |\n3 | mas = 1.0\n  | ^^^\nunknown field `mas`, expected one of `name`, `shape`, `density`, `mass`, `inertia`, `position`, `origin`, `orientation`, `velocity`, `angular_velocity`, `angular_velocity_body`, `friction`, `restitution`, `response`, `breaking_load`, `fixed`, `motion`, `freedom`, `collides`"
     );
     let text = told("[[effects]]\ndragg.linear = 1.0\n");
     assert!(

@@ -5,6 +5,7 @@
 
 mod accuracy;
 mod bad_input;
+mod breaking;
 mod collision;
 mod effects;
 mod events;

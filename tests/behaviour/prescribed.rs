@@ -3,7 +3,8 @@
 use super::meeting::{close, last, run, scene};
 use bryla::math::{Vector3, quaternion};
 use bryla::{
-    Body, Cuboid, EventKind, HalfSpace, Prescribed, Response, RunError, RunOptions, Simulation, Sphere, UniformGravity,
+    Body, BreakingLoad, Cuboid, EventKind, HalfSpace, Prescribed, Response, RunError, RunOptions, Simulation, Sphere,
+    UniformGravity,
 };
 
 const TIGHT: f64 = 1e-12;
@@ -184,11 +185,149 @@ fn a_saved_run_with_a_moved_body_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn what_sticks_to_a_moved_body_ends_the_run_by_name() {
+fn what_rides_into_something_fixed_ends_the_run_by_name() {
     let wall = Body::new("wall", Cuboid::new([0.1, 1.0, 1.0])).motion(Prescribed::moving([1.0, 0.0, 0.0]));
     let ball = Body::new("ball", Sphere::new(0.1)).mass(1.0).position([1.0, 0.0, 0.0]).response(Response::Stick);
-    let error = scene([wall, ball]).run(0.0..1.0, &RunOptions::tolerance(1e-6)).unwrap_err();
-    let RunError::Simulation(error) = error else { panic!("{error}") };
-    assert!(error.to_string().contains("ball sticks to wall, which moves as prescribed"), "{error}");
-    assert!((error.time - 0.8).abs() < 1e-6 && error.trajectory.is_some());
+    let post = Body::new("post", Sphere::new(0.1)).fixed().position([2.0, 0.0, 0.0]);
+    let end = |bodies: Vec<Body>| {
+        let error = scene(bodies).run(0.0..3.0, &RunOptions::tolerance(1e-6)).unwrap_err();
+        let RunError::Simulation(error) = error else { panic!("{error}") };
+        error
+    };
+    let error = end(vec![wall.clone(), ball.clone(), post]);
+    assert!(error.to_string().contains("post is fixed, ball rides on wall, and they run into each other"), "{error}");
+    assert!((error.time - 1.6).abs() < 1e-6 && error.trajectory.is_some());
+}
+
+/// A turntable of radius 1 that turns about z, and a ball that comes down on it at this distance from its centre.
+fn turntable(spin: f64, r: f64, ball: Body) -> bryla::Scene {
+    let table = Body::new("table", bryla::Cylinder::new(1.0, 0.05)).position([0.0, 0.0, -0.05]);
+    let table = table.motion(Prescribed::turning([0.0, 0.0, spin])).response(Response::Stick);
+    scene([table, ball.position([r, 0.0, 0.6]).velocity([0.0, 0.0, -1.0])])
+}
+
+#[test]
+fn a_ball_that_sticks_to_a_turntable_rides_on_it() {
+    // from the touch at t = 0.5 on: x = r (cos, sin), v = ω r; the blow takes ½ m |v − ω × r|² + ½ I ω² and m (v, ω r)
+    let (w, r, m) = (3.0, 0.5, 2.0);
+    let run = run(&turntable(w, r, Body::new("ball", Sphere::new(0.1)).mass(m)), 4.0);
+    assert_eq!(run.events().len(), 1);
+    let event = &run.events()[0];
+    assert_eq!((event.kind, event.bodies), (EventKind::Stick, [0, 1]));
+    assert!((event.time - 0.5).abs() < TIGHT);
+    close(event.impulse, [0.0, m * w * r, m], TIGHT * m * w);
+    close(event.velocity[1], [0.0, w * r, 0.0], TIGHT * w);
+    close(event.angular_velocity[1], [0.0, 0.0, w], TIGHT * w);
+    let inertia = 0.4 * m * 0.01;
+    let lost = 0.5 * m * (1.0 + w * w * r * r) + 0.5 * inertia * w * w;
+    assert!((event.energy_lost - lost).abs() < TIGHT * lost);
+
+    for (sample, &t) in run.times().iter().enumerate().filter(|(_, t)| **t > 0.5) {
+        let (angle, ball) = (w * (t - 0.5), run.motions(sample)[1]);
+        close(ball.position, [r * angle.cos(), r * angle.sin(), 0.1], 1e-11);
+        close(ball.velocity, [-w * r * angle.sin(), w * r * angle.cos(), 0.0], 1e-11);
+        close(ball.angular_velocity, [0.0, 0.0, w], TIGHT * w);
+    }
+    // the table does the work that the ball gains and that is lost, at once, and none after it
+    let energy = run.energy().unwrap();
+    let gained = energy.kinetic[run.times().len() - 1] - energy.kinetic[0];
+    assert!((energy.work[run.times().len() - 1] - gained - lost).abs() < TIGHT * lost);
+    assert!(energy.drift() < TIGHT * lost, "{:e}", energy.drift());
+    assert_eq!(run.report().met, Some(true));
+}
+
+#[test]
+fn a_big_wheel_lifts_what_sticks_to_it_and_its_work_is_told() {
+    // a plate turns about x through its origin under gravity, stands still from t = 2 on, and turns back from t = 3 on:
+    // the height is that of the arm, and the work m g times its change
+    let (w, g, m) = (0.8_f64, 10.0, 2.0);
+    let plate = Body::new("plate", Cuboid::new([0.1, 2.0, 0.1])).position([0.0, 0.0, 0.0]);
+    let plate = plate.motion(Prescribed::turning([w, 0.0, 0.0]).schedule([(0.4, 1.0), (2.0, 0.0), (3.0, -0.5)]));
+    let ball = Body::new("ball", Sphere::new(0.1)).mass(m).position([0.0, 1.5, 0.3]).response(Response::Stick);
+    let mut scene = scene([plate, ball]);
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -g]));
+    let run = run(&scene, 4.0);
+    assert_eq!(run.events().len(), 1, "{:?}", run.events());
+    assert!((run.events()[0].time - 0.02_f64.sqrt()).abs() < TIGHT);
+    let angle = |t: f64| w * ((t - 0.4).clamp(0.0, 1.6) - 0.5 * (t - 3.0).max(0.0));
+    for (sample, &t) in run.times().iter().enumerate().filter(|(_, t)| **t > 0.2) {
+        let (s, c) = (angle(t).sin(), angle(t).cos());
+        close(run.motions(sample)[1].position, [0.0, 1.5 * c - 0.2 * s, 1.5 * s + 0.2 * c], 1e-11);
+    }
+    // between the ends of the pieces in which it is booked the work is a cubic's: 3e-9 of m g h
+    assert!(run.energy().unwrap().drift() < 3e-9 * m * g, "{:e}", run.energy().unwrap().drift());
+}
+
+#[test]
+fn what_rides_comes_off_by_its_breaking_load_and_flies_off_along_the_tangent() {
+    // a buoyant ball: m ω² r inwards and m g down pull at once, and stay
+    let (w, r, m, g) = (3.0_f64, 0.5, 2.0, 0.5_f64);
+    let ball = |f: f64| Body::new("ball", Sphere::new(0.1)).mass(m).breaking_load(BreakingLoad::new(f, f64::INFINITY));
+    let carried = Vector3::new(-m * w * w * r, 0.0, -m * g);
+    let [holds, parts] = [1.001, 0.999].map(|part| {
+        let mut scene = turntable(w, r, ball(part * carried.norm()));
+        scene.add_effect(UniformGravity::new([0.0, 0.0, g]));
+        run(&scene, 2.0)
+    });
+    assert_eq!(holds.events().len(), 1);
+    assert!(holds.energy().unwrap().drift() < 1e-10);
+    let kinds: Vec<_> = parts.events().iter().map(|event| event.kind).collect();
+    assert_eq!(kinds, [EventKind::Stick, EventKind::Break]);
+    let (event, end) = (&parts.events()[1], last(&parts)[1]);
+    assert!((event.time - 4.0 * (0.5 - 0.125_f64.sqrt())).abs() < TIGHT);
+    close(event.force, carried, 1e-11);
+    let left = 2.0 - event.time;
+    close(end.velocity, [0.0, w * r, g * left], 1e-9);
+    close(end.position, [r, w * r * left, 0.1 + 0.5 * g * left * left], 1e-9);
+    assert!(parts.energy().unwrap().drift() < 1e-9);
+
+    // the weight swings round in the plate's axes while it turns about the horizontal: here, straight up at first
+    let (w, g, f) = (2.0_f64, 10.0, 21.0);
+    let arm = 0.2;
+    let plate = Body::new("plate", Cuboid::new([1.0, 1.0, 0.1])).motion(Prescribed::turning([w, 0.0, 0.0]));
+    let drop = ball(f).position([0.0, 0.0, 0.2]).response(Response::Stick);
+    let mut scene = scene([plate, drop]);
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -g]));
+    let run = run(&scene, 1.4);
+    let event = run.events().iter().find(|event| event.kind == EventKind::Break).unwrap();
+    // force on the ball m g z − m ω² a e, e = (0, −sin, cos) of the turned angle φ = ω t
+    let (weight, swing) = (m * g, m * w * w * arm);
+    let cosine = (weight * weight + swing * swing - f * f) / (2.0 * weight * swing);
+    // it lies on the plate at the start, and sticks as soon as that begins to turn
+    let (begin, ride) = (run.events()[0].time, event.time - run.events()[0].time);
+    assert!(begin < 1e-6 && (ride - cosine.acos() / w).abs() < 1e-11, "{begin} {ride} {}", cosine.acos() / w);
+    assert!((event.force.norm() - f).abs() < 1e-10);
+    let (s, c) = ((w * ride).sin(), (w * ride).cos());
+    close(event.velocity[1], [0.0, -w * arm * c, -w * arm * s], 1e-10);
+    close(event.force, [0.0, swing * s, weight - swing * c], 1e-9);
+}
+
+#[test]
+fn a_saved_rider_goes_on_with_the_same_bits() {
+    let table = Body::new("table", bryla::Cylinder::new(1.0, 0.05)).position([0.0, 0.0, -0.05]);
+    let motion = Prescribed { velocity: [0.1, 0.0, 0.0], ..Prescribed::turning([0.0, 0.0, 3.0]) };
+    let table = table.motion(motion.schedule([(0.0, 1.0), (1.0, 1.5)]));
+    let ball = Body::new("ball", Sphere::new(0.1)).mass(1.0).position([0.5, 0.0, 0.6]).velocity([0.0, 0.0, -1.0]);
+    let ball = ball.response(Response::Stick).breaking_load(BreakingLoad::new(8.0, 1.0));
+    let mut scene = scene([table, ball]);
+    scene.add_effect(UniformGravity::new([0.0, 0.0, 0.5]));
+    for method in [bryla::Method::Exact, bryla::Method::Rk4] {
+        let plan = scene.compile(&RunOptions::method(method).step(0.01)).unwrap();
+        for at in [0.7, 1.2] {
+            let mut whole = plan.start(0.0).unwrap();
+            whole.advance(at).unwrap();
+            let file = std::env::temp_dir().join(format!("bryla-rides-{}-{method}-{at}.bryla", std::process::id()));
+            whole.save(&file).unwrap();
+            let mut again = Simulation::resume(&file).unwrap();
+            std::fs::remove_file(&file).unwrap();
+            for simulation in [&mut whole, &mut again] {
+                simulation.advance(2.0).unwrap();
+            }
+            let kinds: Vec<_> = whole.events().iter().map(|event| (event.kind, event.time)).collect();
+            // m (1.5 ω)² r is more than the joint bears from t = 1 on
+            assert_eq!(kinds[1], (EventKind::Break, 1.0));
+            assert_eq!(whole.events(), again.events());
+            assert_eq!(whole.motion("ball").unwrap(), again.motion("ball").unwrap());
+        }
+    }
 }

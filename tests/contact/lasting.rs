@@ -2,8 +2,9 @@
 
 use bryla::contact::accumulation::{Accumulation, rest_speed};
 use bryla::contact::cluster::{ClusterBody, ClusterError, Contact};
+use bryla::contact::joint::BreakingLoad;
 use bryla::contact::rest::{Acceleration, Hold, Rest, Support, rest};
-use bryla::contact::stick::{BreakingLoad, merge, stick_to_driven};
+use bryla::contact::stick::{merge, stick_to_driven};
 use bryla::math::{Matrix3, Vector3, quaternion};
 use bryla::{BodyMotion, Load};
 
