@@ -374,7 +374,7 @@ impl Simulation {
         (number, watchers): (u64, Vec<Watcher>),
     ) -> Result<()> {
         if let [Part { body, pose, group, .. }] = parts {
-            let charts = self.plan.charts(*group, &[])?;
+            let charts = self.plan.charts(*group, &[]);
             let motion = Riding { pose: *pose }.motion(whole, &self.body(*body).start);
             let spec = self.lanes[*group].spec.clone();
             let lane = &mut self.lanes[*group];
