@@ -177,8 +177,7 @@ impl Simulation {
         }
         let segment = lane.flight.segment();
         let length = (segment.end - segment.start).max(0.0);
-        let count = (self.pace(index) * length / PIECE).ceil().clamp(1.0, f64::from(u32::MAX));
-        let piece = length / count;
+        let piece = if self.pace(index) > 0.0 { (PIECE / self.pace(index)).min(length) } else { length };
         let mut motions = lane.motions.clone();
         let mut power = |offset: f64| {
             lane.flight.at_offset(offset, &mut motions);
@@ -193,13 +192,17 @@ impl Simulation {
             own.sum::<f64>()
         };
         let mut booked = Vec::new();
-        for k in 0..count as u64 {
-            let from = k as f64 * piece;
-            let joules = GAUSS.iter().map(|(node, weight)| weight * piece * power(from + node * piece)).sum();
-            let (start, ends) = (segment.start + from, [power(from), power(from + piece)]);
+        let mut from = 0.0;
+        while from < length {
+            // the last one takes what rounding would leave
+            let to = if from + 1.5 * piece < length { from + piece } else { length };
+            let h = to - from;
+            let joules = GAUSS.iter().map(|(node, weight)| weight * h * power(from + node * h)).sum();
+            let ends = [power(from), power(to)];
             if joules != 0.0 || ends != [0.0; 2] {
-                booked.push(Heat { from: start, to: start + piece, joules, power: ends });
+                booked.push(Heat { from: segment.start + from, to: segment.start + to, joules, power: ends });
             }
+            from = to;
         }
         self.work.extend(booked);
     }
