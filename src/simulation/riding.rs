@@ -194,8 +194,7 @@ impl Simulation {
         let mut booked = Vec::new();
         let mut from = 0.0;
         while from < length {
-            // the last one takes what rounding would leave
-            let to = if from + 1.5 * piece < length { from + piece } else { length };
+            let to = if from + piece < length { from + piece } else { length };
             let h = to - from;
             let joules = GAUSS.iter().map(|(node, weight)| weight * h * power(from + node * h)).sum();
             let ends = [power(from), power(to)];
