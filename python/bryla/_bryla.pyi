@@ -1163,9 +1163,9 @@ class Body:
         Coefficient of restitution, 0 to 1 [-]; a pair has the larger of both.
     response : {"bounce", "stick"}
         What happens when it touches another body.
-    breaking_load : (float, float), optional
+    breaking_load : (float or None, float or None), optional
         Force [N] and torque about the point of contact [N·m] under which what it sticks to, or what sticks to it,
-        comes off; of a pair the weaker counts. math.inf bears any.
+        comes off; of a pair the weaker counts. None bears any.
     fixed : bool
         Whether it stays where it is.
     motion : Prescribed, optional
@@ -1193,7 +1193,7 @@ class Body:
         friction: _Number = 0.0,
         restitution: _Number = 0.0,
         response: _Response = "bounce",
-        breaking_load: _Numbers | None = None,
+        breaking_load: tuple[float | None, float | None] | None = None,
         fixed: bool = False,
         motion: Prescribed | None = None,
         freedom: _Freedom = "free",
@@ -1256,7 +1256,7 @@ class Body:
         """What happens when it touches another body: "bounce" or "stick"."""
 
     @property
-    def breaking_load(self) -> tuple[float, float] | None:
+    def breaking_load(self) -> tuple[float | None, float | None] | None:
         """Force [N] and torque [N·m] under which what has stuck comes off, or None."""
 
     @property
@@ -1773,8 +1773,8 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What: "bounce", "stick", "break" (what had stuck came off), "contact" (they stay in contact and move), "rest",
-        "user" or "switch".
+        """What: "bounce", "stick", "break" (what had stuck came off), "contact" (they stay in contact and move),
+        "rest", "user" or "switch".
         """
 
     @property
@@ -1795,7 +1795,9 @@ class Event:
 
     @property
     def point(self) -> _Array:
-        """Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several; of a break the joint."""
+        """Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several; of a break the
+        joint.
+        """
 
     @property
     def normal(self) -> _Array:

@@ -45,9 +45,9 @@ plain_class! {
     ///     Coefficient of restitution, 0 to 1 [-]; a pair has the larger of both.
     /// response : {"bounce", "stick"}
     ///     What happens when it touches another body.
-    /// breaking_load : (float, float), optional
+    /// breaking_load : (float or None, float or None), optional
     ///     Force [N] and torque about the point of contact [N·m] under which what it sticks to, or what sticks to it,
-    ///     comes off; of a pair the weaker counts. math.inf bears any.
+    ///     comes off; of a pair the weaker counts. None bears any.
     /// fixed : bool
     ///     Whether it stays where it is.
     /// motion : Prescribed, optional

@@ -167,14 +167,16 @@ impl Plain for Schedule {
 }
 
 impl Plain for BreakingLoad {
-    type Value = Numbers<2>;
+    type Value = (Option<f64>, Option<f64>);
 
-    fn to_python(&self) -> Numbers<2> {
-        Numbers([self.force, self.torque])
+    /// None where it bears any.
+    fn to_python(&self) -> Self::Value {
+        let [force, torque] = [self.force, self.torque].map(|most| (most != f64::INFINITY).then_some(most));
+        (force, torque)
     }
 
-    fn from_python(Numbers([force, torque]): Numbers<2>) -> Result<Self> {
-        Ok(Self::new(force, torque))
+    fn from_python((force, torque): Self::Value) -> Result<Self> {
+        Ok(Self::new(force.unwrap_or(f64::INFINITY), torque.unwrap_or(f64::INFINITY)))
     }
 }
 

@@ -482,8 +482,8 @@ impl PyEvent {
         self.event.time
     }
 
-    /// What: "bounce", "stick", "break" (what had stuck came off), "contact" (they stay in contact and move), "rest",
-    /// "user" or "switch".
+    /// What: "bounce", "stick", "break" (what had stuck came off), "contact" (they stay in contact and move),
+    /// "rest", "user" or "switch".
     #[getter]
     fn kind(&self) -> &'static str {
         self.event.kind.name()
@@ -509,7 +509,8 @@ impl PyEvent {
         self.bodies.clone()
     }
 
-    /// Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several; of a break the joint.
+    /// Where the impulse acts [m]: array (3,); the point of contact, or the centroid of several; of a break the
+    /// joint.
     #[getter]
     fn point<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
         convert::vector(py, &self.event.point)

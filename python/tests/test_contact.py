@@ -68,7 +68,7 @@ def test_a_body_that_hangs_on_a_ceiling_falls_when_it_is_pulled_too_hard():
     pull = bryla.Wrench("cube", force=(0, 0, -f), angular_frequency=w, phase=-0.1 * w, schedule=[(0.1, 1.0)])
     scene.add_effect(pull)
     ceiling = bryla.HalfSpace(normal=(0, 0, -1), offset=-1.0)
-    scene.add(bryla.Body("ceiling", ceiling, fixed=True, breaking_load=(most, math.inf)))
+    scene.add(bryla.Body("ceiling", ceiling, fixed=True, breaking_load=(most, None)))
     cube = bryla.Cuboid((0.1, 0.1, 0.1))
     start = {"position": (0.3, 0.2, 0.8), "velocity": (0, 0, 2.0)}
     scene.add(bryla.Body("cube", cube, mass=m, response="stick", breaking_load=(50.0, 9.0), **start))
@@ -85,10 +85,10 @@ def test_a_body_that_hangs_on_a_ceiling_falls_when_it_is_pulled_too_hard():
 
 def test_a_breaking_load_is_a_force_and_a_torque():
     body = ball("ball", 0.1, 1.0, breaking_load=(3, math.inf))
-    assert body.breaking_load == (3.0, math.inf)
+    assert body.breaking_load == (3.0, None)
     assert ball("ball", 0.1, 1.0).breaking_load is None
     scene = bryla.Scene()
     with pytest.raises(bryla.Error, match=r"body ball: breaking_load.force must be a number > 0, or left out, got -1"):
         scene.add(ball("ball", 0.1, 1.0, breaking_load=(-1, 2)))
-    with pytest.raises(TypeError, match="2 numbers wanted"):
+    with pytest.raises(TypeError, match="breaking_load"):
         ball("ball", 0.1, 1.0, breaking_load=3)

@@ -49,7 +49,7 @@ BODIES = [
         friction=0.5,
         restitution=0.25,
         response="stick",
-        breaking_load=(2.0, math.inf),
+        breaking_load=(2.0, None),
         freedom=bryla.Planar((0, 0, 1)),
         collides=False,
     ),

@@ -32,6 +32,20 @@ fn runs(few: u64) -> u64 {
     std::env::var("RUNS").ok().and_then(|n| n.parse().ok()).unwrap_or(few)
 }
 
+/// Calls a target with what its fuzzer keeps: a sample of what it has reached, and all that it has found.
+fn replay(target: fn(&[u8]), name: &str) {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(name);
+    let files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(files.len() >= 40, "{} files of {name}", files.len());
+    files.iter().for_each(|file| target(&std::fs::read(file).unwrap()));
+}
+
+#[test]
+fn what_the_fuzzers_keep() {
+    replay(targets::hull, "hull");
+    replay(targets::query, "query");
+}
+
 #[test]
 fn hulls_of_random_bytes() {
     drive(targets::hull, 4_000, 1);
