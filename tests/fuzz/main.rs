@@ -37,7 +37,9 @@ fn replay(target: fn(&[u8]), name: &str) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(name);
     let files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert!(files.len() >= 40, "{} files of {name}", files.len());
-    files.iter().for_each(|file| target(&std::fs::read(file).unwrap()));
+    for file in files {
+        target(&std::fs::read(file).unwrap());
+    }
 }
 
 #[test]
