@@ -19,6 +19,10 @@ const CORE_REACH: f64 = 1.1;
 /// thousand of them stay far below the whole. Larger: a surface may be said to go around the origin that does not.
 /// Smaller: more overlaps are repeated in double-double.
 const HIDDEN: f64 = 1e-6;
+/// How far below a triangle's plane a point may be and still lie on it, as a part of its distance from the origin, in
+/// units of rounding [-]: the heights of both are right to some 8. Larger: what is a little sharp is taken for flat,
+/// and a fan may lie below what it replaced. Smaller: a fan may fold back onto a triangle on its own plane.
+const ON_PLANE: f64 = 16.0;
 /// Of so many points the first are looked at when a surface is packed [-].
 const LOOKED_AT: usize = 64;
 
@@ -322,15 +326,17 @@ impl<R: Real> Surface<R> {
         self.rim.clear();
         self.patch.push(u32::try_from(first).unwrap_or(u32::MAX));
         self.triangles[first].alive = false;
+        let near = point.norm() * R::from(ON_PLANE * R::UNIT);
         let mut k = 0;
         while k < self.patch.len() {
             let Triangle { corners, across, .. } = self.triangles[self.patch[k] as usize];
             for side in 0..3 {
+                let ends = [corners[side], corners[(side + 1) % 3]].map(|k| self.points[k as usize]);
                 let beyond = &mut self.triangles[across[side] as usize];
                 if !beyond.alive {
                     continue;
                 }
-                if beyond.sees(&point) {
+                if beyond.sees(&point) || beyond.is_folded_onto(&point, &ends, near) {
                     beyond.alive = false;
                     self.patch.push(across[side]);
                 } else {
@@ -339,6 +345,8 @@ impl<R: Real> Surface<R> {
             }
             k += 1;
         }
+        // what was kept across one side may have gone across another
+        self.rim.retain(|rim| self.triangles[rim.beyond as usize].alive);
         self.free.extend_from_slice(&self.patch);
 
         // the fan: its triangles follow one another around the rim, which is one loop or is refused
@@ -389,6 +397,13 @@ impl<R: Real> Triangle<R> {
     #[inline]
     fn sees(&self, point: &Vec3<R>) -> bool {
         self.normal.dot(point) > self.top
+    }
+
+    /// Whether a point lies on the triangle's plane, to a height of `near`, and on the triangle's side of this side of
+    /// it: a triangle between them would lie on this one, face down.
+    #[inline]
+    fn is_folded_onto(&self, point: &Vec3<R>, [from, to]: &[Vec3<R>; 2], near: R) -> bool {
+        self.normal.dot(point) > self.top - near && self.normal.dot(&triangle_normal(from, to, point)) < R::from(0.0)
     }
 }
 
