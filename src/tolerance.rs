@@ -61,9 +61,10 @@ pub const COORDINATE_MIN: f64 = 1.0e-30;
 /// wider intervals. Smaller: more repeats.
 pub const CERTIFICATE_SLACK: f64 = 2.0 * f64::EPSILON;
 
-/// Width of an interval, as a fraction of the pair's size [-], up to which an answer counts as certified whatever the
-/// rounding costs: what is promised of every pair near the origin. A needle of aspect 1e15 stops even the search in
-/// double-double a few ε short.
+/// Width of an interval, as a fraction of the pair's size [-], up to which an answer of the last rung counts as
+/// certified: what is promised. A body 1e15 times as long as wide stops even the search in double-double a few ε
+/// short of what its rounding would allow. Larger: more than promised passes. Smaller: such answers, which keep the
+/// promise, are said not to.
 pub const CERTIFICATE_WIDTH: f64 = 16.0 * f64::EPSILON;
 
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the

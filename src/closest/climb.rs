@@ -158,7 +158,11 @@ fn climb(
     if again.is_none() {
         again = depth::depth_again(pair, start, gap, steps, &enough);
     }
-    if let Some((bounds, core)) = again {
+    // what was remembered serves where it proves enough
+    let error = |bounds: &Bounds<f64>| 2.0 * pair.error(bounds.lower);
+    let proves =
+        |bounds: &Bounds<f64>| enough(bounds) || upper_bound(pair, bounds) - bounds.lower <= gap + error(bounds);
+    if let Some((bounds, core)) = again.filter(|(bounds, _)| proves(bounds)) {
         let rung = if *steps == 1 { Rung::Verified } else { Rung::Searched };
         return Outcome { bounds, core, rung };
     }
@@ -254,7 +258,10 @@ fn describe<R: Real>(
     let error = R::from(bound);
     let rounding = R::from(views[0].rounding + views[1].rounding);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
-    let certified = is_certified(lower, upper, accuracy, bound, pair.size());
+    let floor = 2.0 * bound + CERTIFICATE_SLACK * pair.size();
+    // what a rung could do better leads to the next; the last is held to what is promised
+    let floor = if rung == Rung::DoubleDouble { floor.max(CERTIFICATE_WIDTH * pair.size()) } else { floor };
+    let certified = is_certified(lower, upper, accuracy, floor, pair.size());
 
     // both points, joined by the same vector that the distance is taken from
     let simplex = &found.simplex;
@@ -301,10 +308,9 @@ pub(super) fn state(lower: f64, upper: f64) -> State {
     }
 }
 
-/// Whether an interval is as narrow as was asked for.
+/// Whether an interval is as narrow as was asked for; `floor` is the width that counts as exact [m].
 #[inline]
-pub(super) fn is_certified(lower: f64, upper: f64, accuracy: Accuracy, error: f64, size: f64) -> bool {
-    let floor = (2.0 * error + CERTIFICATE_SLACK * size).max(CERTIFICATE_WIDTH * size);
+pub(super) fn is_certified(lower: f64, upper: f64, accuracy: Accuracy, floor: f64, size: f64) -> bool {
     match accuracy {
         Accuracy::Exact => upper - lower <= floor,
         Accuracy::Relative(r) => upper - lower <= floor.max(r * size),

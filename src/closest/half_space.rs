@@ -16,7 +16,7 @@ use super::vector::Vec3;
 use crate::error::{Error, Result};
 use crate::math::Pose;
 use crate::shape::HalfSpace;
-use crate::tolerance::COORDINATE_MAX;
+use crate::tolerance::{CERTIFICATE_SLACK, COORDINATE_MAX};
 
 /// What the plane's own normal costs, in units `u` times the radius and the distance of the centres and
 /// of the plane [-]: 4.5 for the division by its length, 5.5 for its rotation.
@@ -102,6 +102,6 @@ fn answer<R: Heights>(
         part_b: 0,
         steps: 1,
         rung,
-        certified: is_certified(lower, upper, accuracy, error, size),
+        certified: is_certified(lower, upper, accuracy, 2.0 * error + CERTIFICATE_SLACK * size, size),
     }
 }
