@@ -6,7 +6,6 @@ use crate::error::{Error, Result};
 use crate::freedom::Chart;
 use crate::freedom::riding::follow;
 use crate::integrator::{Problem, Segment};
-use crate::math::roots::Passage;
 use crate::math::sum::Time;
 use crate::math::{Pose, Vector3};
 use crate::plan::{Any, Binding, Group, Plan};
@@ -14,169 +13,13 @@ use crate::report::Report;
 use crate::scene::{BodyId, Record};
 use crate::state::{BodyMotion, BodyState, Load, Moment};
 
+mod event;
+mod heat;
 #[cfg(feature = "serde")]
 mod saved;
 
-/// What kind of event it was.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
-pub enum EventKind {
-    /// A body rebounded.
-    Bounce,
-    /// A body stuck to another: to a fixed one, where it stops, to one on a prescribed motion, with which it moves, or
-    /// to a free one, and both are one body from here on.
-    Stick,
-    /// What had stuck came off: its joint carried more than the pair's breaking load. Each piece goes on with the
-    /// motion that it has.
-    Break,
-    /// Bodies stay in contact from here on: they slide, roll or tip on each other.
-    Contact,
-    /// Bodies rest on each other from here on, in equilibrium, until something hits them or a load changes.
-    Rest,
-    /// A measure that the run watched met its value.
-    User,
-    /// The state turned a load on or off.
-    Switch,
-}
-
-impl EventKind {
-    /// The name that files and Python use.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Bounce => "bounce",
-            Self::Stick => "stick",
-            Self::Break => "break",
-            Self::Contact => "contact",
-            Self::Rest => "rest",
-            Self::User => "user",
-            Self::Switch => "switch",
-        }
-    }
-}
-
-/// Something that happened at an instant. World axes.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Event {
-    /// When [s].
-    pub time: f64,
-    /// What.
-    pub kind: EventKind,
-    /// The name of a user's event, or which load was turned on or off; empty for impacts.
-    pub name: String,
-    /// How the measure behind a user's event or a switch met its value.
-    pub passage: Option<Passage>,
-    /// The two bodies a and b, as places in the scene; the first and the last of a user's event or a switch, to
-    /// which nothing of the below applies.
-    pub bodies: [usize; 2],
-    /// Where the impulse acts [m]: the point of contact, or the centroid of several, weighted by their impulses; of a
-    /// break the joint, the mean of the points in which they touched.
-    pub point: Vector3,
-    /// Unit normal from a to b; of a break, as it was when they stuck, turned with b.
-    pub normal: Vector3,
-    /// Impulse on b [N·s]; −1 times that on a.
-    pub impulse: Vector3,
-    /// Force of a on b that the joint carried when it broke [N].
-    pub force: Vector3,
-    /// Torque of a on b about the joint when it broke [N·m].
-    pub torque: Vector3,
-    /// Which features of a and b touched, in words.
-    pub features: String,
-    /// Rounds that the finder took to locate it.
-    pub iterations: u32,
-    /// Velocity of b's centre of mass before and after [m/s].
-    pub velocity: [Vector3; 2],
-    /// Angular velocity of b before and after [rad/s].
-    pub angular_velocity: [Vector3; 2],
-    /// Velocity of a's centre of mass before and after [m/s].
-    pub other_velocity: [Vector3; 2],
-    /// Angular velocity of a before and after [rad/s].
-    pub other_angular_velocity: [Vector3; 2],
-    /// Kinetic energy lost [J].
-    pub energy_lost: f64,
-}
-
-impl Event {
-    /// An event at `time` [s] between two bodies a and b, with their motions before and after; the rest is nothing.
-    pub(crate) fn between(
-        time: f64,
-        kind: EventKind,
-        bodies: [usize; 2],
-        a: [&BodyMotion; 2],
-        b: [&BodyMotion; 2],
-    ) -> Self {
-        Self {
-            passage: None,
-            velocity: b.map(|b| b.velocity),
-            angular_velocity: b.map(|b| b.angular_velocity),
-            other_velocity: a.map(|a| a.velocity),
-            other_angular_velocity: a.map(|a| a.angular_velocity),
-            ..Self::watched(time, kind, String::new(), Passage::Rising, bodies)
-        }
-    }
-
-    /// An event at `time` [s] that is no impact, of these two bodies.
-    pub(crate) fn watched(time: f64, kind: EventKind, name: String, passage: Passage, bodies: [usize; 2]) -> Self {
-        let nothing = Vector3::zeros();
-        Self {
-            time,
-            kind,
-            name,
-            passage: Some(passage),
-            bodies,
-            point: nothing,
-            normal: nothing,
-            impulse: nothing,
-            force: nothing,
-            torque: nothing,
-            features: String::new(),
-            iterations: 0,
-            velocity: [nothing; 2],
-            angular_velocity: [nothing; 2],
-            other_velocity: [nothing; 2],
-            other_angular_velocity: [nothing; 2],
-            energy_lost: 0.0,
-        }
-    }
-}
-
-/// Energy that passes in contacts, over a time or at once: heat of friction and of gentle impacts, work of bodies
-/// that are moved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Heat {
-    /// When it begins [s].
-    pub(crate) from: f64,
-    /// When it ends [s].
-    pub(crate) to: f64,
-    /// How much [J].
-    pub(crate) joules: f64,
-    /// Power at both ends [W].
-    pub(crate) power: [f64; 2],
-}
-
-impl Heat {
-    /// What passes at an instant [s], [J].
-    pub(crate) fn at(time: f64, joules: f64) -> Self {
-        Self { from: time, to: time, joules, power: [0.0; 2] }
-    }
-
-    /// Ends it at a time within it [s], by what has come till then.
-    pub(crate) fn cut(&mut self, t: f64) {
-        let joules = self.until(t);
-        let near = 1e-3 * (self.to - self.from);
-        let last = (self.until(t) - self.until(t - near)) / near;
-        *self = Self { to: t, joules, power: [self.power[0], last], ..*self };
-    }
-
-    /// What has come by a time within it [s]: the cubic through both ends and their powers [J].
-    fn until(&self, t: f64) -> f64 {
-        let h = self.to - self.from;
-        let s = ((t - self.from) / h).clamp(0.0, 1.0);
-        let [p0, p1] = self.power.map(|p| h * p);
-        s * (p0 + s * (3.0 * self.joules - 2.0 * p0 - p1 + s * (p0 + p1 - 2.0 * self.joules)))
-    }
-}
+pub use event::{Event, EventKind};
+pub(crate) use heat::Heat;
 
 /// The motion of a group while its bodies keep their coordinates.
 #[derive(Debug, Clone, PartialEq)]
