@@ -463,9 +463,10 @@
 //!
 //! In a run all bodies that touch at an instant are answered at once. Bounces that come ever faster end when
 //! their geometric series does; what has no speed left along the normal then rests, slides, rolls or tips by
-//! the forces of contact. A body that sticks to a fixed one stops there, to a moved one rides on it; two that stick to each other go on as
-//! one, in closed form where gravity alone acts. Where this version cannot follow a contact, the run ends in
-//! [`LastingContact`](crate::simulation::Failure::LastingContact) with all that was computed.
+//! the forces of contact. A body that sticks to a fixed one stops there, to a moved one rides on it; two that
+//! stick to each other go on as one, in closed form where gravity alone acts. Where this version cannot follow
+//! a contact, the run ends in [`LastingContact`](crate::simulation::Failure::LastingContact) with all that was
+//! computed.
 //!
 //! | | in code |
 //! |---|---|

@@ -157,6 +157,20 @@ impl Simulation {
         }
     }
 
+    /// Ends the flight of a lane whose body becomes part of another; the number of the next one.
+    pub(super) fn end_flight(
+        &mut self,
+        lane: usize,
+        time: Time,
+        record: &mut Option<&mut Trajectory>,
+    ) -> std::result::Result<u64, SimulationError> {
+        if let Some(slot) = self.lanes[lane].led.take() {
+            self.end_together(slot, time);
+        }
+        self.cut_flight(lane, time, record)?;
+        Ok(self.lanes[lane].number + 1)
+    }
+
     /// The first pair of a cluster, among those that touch, whose bodies become one.
     pub(super) fn sticking(&self, cluster: &Cluster, scales: &ContactScales) -> Option<usize> {
         cluster.touching.iter().position(|touching| {
@@ -200,11 +214,7 @@ impl Simulation {
         let mut number = 0;
         for unit in units {
             let Some((lane, _)) = self.places[unit] else { continue };
-            if let Some(slot) = self.lanes[lane].led.take() {
-                self.end_together(slot, time);
-            }
-            self.cut_flight(lane, time, record)?;
-            number = number.max(self.lanes[lane].number + 1);
+            number = number.max(self.end_flight(lane, time, record)?);
         }
         let before = self.motions_of(cluster, pair, &cluster.motions);
         let watchers: Vec<_> = units.iter().filter_map(|&unit| self.places[unit]).collect();

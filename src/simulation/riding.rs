@@ -99,11 +99,7 @@ impl Simulation {
         }
 
         // the flight so far ends here
-        if let Some(slot) = self.lanes[lane].led.take() {
-            self.end_together(slot, time);
-        }
-        self.cut_flight(lane, time, record)?;
-        let going = (self.lanes[lane].number + 1, self.lanes[lane].watchers.clone());
+        let going = (self.end_flight(lane, time, record)?, self.lanes[lane].watchers.clone());
         self.ride(&parts, driver, time, going)
             .map_err(|error| self.failure_of(&bodies, time.value, Failure::Refused(error.to_string())))?;
 
