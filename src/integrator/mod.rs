@@ -60,6 +60,11 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
     /// Takes back what was lent.
     fn take_back(&mut self, lent: Self);
 
+    /// The numbers themselves, to work on until they are put back by an assignment: a `Vec` leaves an empty one, an
+    /// array is copied, so that the compiler can hold it in registers.
+    #[must_use]
+    fn take(&mut self) -> Self;
+
     /// The numbers that change; the rate of the others is 0, and stands so in every vector of rates.
     #[inline(always)]
     fn moving(&self) -> [Range<usize>; 2] {
@@ -123,10 +128,15 @@ pub trait StateVector: Clone + Debug + Send + AsRef<[f64]> + AsMut<[f64]> {
         }
     }
 
-    /// Whether every number is finite: 0 times any other is not 0.
+    /// Whether every number is finite. Their sum is, unless one is not, or the sum alone is too large; it is taken in
+    /// two halves, which do not wait for each other.
     #[inline(always)]
     fn is_finite(&self) -> bool {
-        self.as_ref().iter().fold(0.0, |sum, x| sum + 0.0 * x) == 0.0
+        let mut sums = [0.0; 2];
+        let pairs = self.as_ref().chunks_exact(2);
+        let last = pairs.remainder().first().copied().unwrap_or(0.0);
+        pairs.for_each(|pair| (sums[0], sums[1]) = (sums[0] + pair[0], sums[1] + pair[1]));
+        (sums[0] + sums[1] + last).is_finite() || self.as_ref().iter().all(|x| x.is_finite())
     }
 
     /// `self += dy`, where `rest` takes up what rounding drops and hands it to the next sum.
@@ -154,6 +164,11 @@ impl<const N: usize> StateVector for [f64; N] {
 
     #[inline(always)]
     fn take_back(&mut self, _lent: Self) {}
+
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        *self
+    }
 }
 
 impl StateVector for Vec<f64> {
@@ -167,6 +182,10 @@ impl StateVector for Vec<f64> {
 
     fn take_back(&mut self, lent: Self) {
         *self = lent;
+    }
+
+    fn take(&mut self) -> Self {
+        std::mem::take(self)
     }
 }
 

@@ -25,19 +25,13 @@ pub(super) struct Stepper<P: Problem, K> {
     control: Control,
     projection: bool,
     kernel: K,
-    /// The last step: its start, its length, and the slopes at both ends.
-    at: Moment,
-    began: Time,
-    h: f64,
-    start: P::Y,
-    start_rest: P::Y,
-    slope: P::Y,
+    /// The last step.
+    last: Stride<P::Y>,
+    /// The slope at its end, and whether it is known.
     end_slope: P::Y,
-    /// Whether the slope at the front is known, in `end_slope`.
     slope_known: bool,
-    increment: P::Y,
-    /// How far the orientations had strayed when they were put back [-].
-    strayed: f64,
+    /// What rounding had dropped where it began.
+    start_rest: P::Y,
     /// Length that error control proposes for the next step [s]; 0 where it has none yet.
     proposal: f64,
     /// Error of the last accepted step, as a part of what is allowed [-].
@@ -46,6 +40,54 @@ pub(super) struct Stepper<P: Problem, K> {
     /// steps would have led.
     failures: u32,
     failed_end: f64,
+}
+
+/// A step: where and when it began, its length, its slope there, and its change.
+#[derive(Debug)]
+struct Stride<Y> {
+    began: Time,
+    at: Moment,
+    h: f64,
+    start: Y,
+    slope: Y,
+    increment: Y,
+    /// How far the orientations had strayed when they were put back [-].
+    strayed: f64,
+}
+
+impl<Y: StateVector> Stride<Y> {
+    /// See [`StateVector::take`].
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        let (start, slope, increment) = (self.start.take(), self.slope.take(), self.increment.take());
+        Self { start, slope, increment, ..*self }
+    }
+
+    /// Starts at the front.
+    #[inline(always)]
+    fn begin(&mut self, front: &Front<Y>) {
+        self.began = front.time;
+        self.at = front.moment();
+        self.start.clone_from(&front.y);
+    }
+
+    /// Moves the front's numbers by a step of length `h` from the start.
+    #[inline(always)]
+    fn attempt<P: Problem<Y = Y>>(
+        &mut self,
+        kernel: &mut impl Kernel<Y>,
+        problem: &mut P,
+        front: &mut Front<Y>,
+        h: f64,
+        projection: bool,
+    ) {
+        self.h = h;
+        kernel.step(problem, self.at, &front.y, &self.slope, h, &mut self.increment);
+        if projection {
+            self.strayed = problem.project(&front.y, &front.rest, &mut self.increment);
+        }
+        front.y.add_compensated(&self.increment, &mut front.rest);
+    }
 }
 
 /// Growth and shrinkage of a step are kept within these factors [-].
@@ -80,16 +122,18 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             control,
             projection,
             kernel,
-            at: Moment { time: 0.0, since: 0.0 },
-            began: Time::default(),
-            h: 0.0,
-            start: zeros(),
-            start_rest: zeros(),
-            slope: zeros(),
+            last: Stride {
+                began: Time::default(),
+                at: Moment { time: 0.0, since: 0.0 },
+                h: 0.0,
+                start: zeros(),
+                slope: zeros(),
+                increment: zeros(),
+                strayed: 0.0,
+            },
             end_slope: zeros(),
             slope_known: false,
-            increment: zeros(),
-            strayed: 0.0,
+            start_rest: zeros(),
             proposal: 0.0,
             last_error: LEAST_ERROR,
             failures: 0,
@@ -99,43 +143,27 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
 
     /// Starts a step at the front: the slope there.
     #[inline(always)]
-    fn begin(&mut self, problem: &mut P, front: &Front<P::Y>, counts: &mut Counts) {
-        self.at = front.moment();
+    fn begin(&mut self, problem: &mut P, front: &Front<P::Y>, last: &mut Stride<P::Y>, counts: &mut Counts) {
+        last.begin(front);
         if self.slope_known {
-            std::mem::swap(&mut self.slope, &mut self.end_slope);
+            last.slope.clone_from(&self.end_slope);
+            self.slope_known = false;
         } else if K::NEEDS_SLOPE {
-            let mut slope = self.slope.lend();
-            problem.rate(self.at, &front.y, &mut slope);
-            self.slope = slope;
+            problem.rate(last.at, &front.y, &mut last.slope);
             counts.evaluations += 1;
         }
-        self.slope_known = false;
-        self.start.clone_from(&front.y);
     }
 
-    /// Moves the front's numbers by a step of length `h` from the start.
-    #[inline(always)]
-    fn attempt(&mut self, problem: &mut P, front: &mut Front<P::Y>, h: f64) {
-        self.h = h;
-        let mut increment = self.increment.lend();
-        self.kernel.step(problem, self.at, &front.y, &self.slope, h, &mut increment);
-        if self.projection {
-            self.strayed = problem.project(&front.y, &front.rest, &mut increment);
-        }
-        front.y.add_compensated(&increment, &mut front.rest);
-        self.increment.take_back(increment);
-    }
-
-    /// Counts the evaluations of the step just tried; that of the slope at its start has been counted.
+    /// Counts a step just tried; the evaluation at its start has been counted.
     #[inline(always)]
     fn count(&self, counts: &mut Counts) {
         counts.evaluations += u64::from(self.kernel.evaluations()) - u64::from(K::NEEDS_SLOPE);
     }
 
     /// Completes a step that ends at `time`.
-    #[inline]
-    fn accept(&mut self, problem: &mut P, front: &mut Front<P::Y>, time: Time, counts: &mut Counts) {
-        let strayed = if self.projection { self.strayed } else { problem.orientation_error(&front.y) };
+    #[inline(always)]
+    fn accept(&self, problem: &P, front: &mut Front<P::Y>, strayed: f64, time: Time, counts: &mut Counts) {
+        let strayed = if self.projection { strayed } else { problem.orientation_error(&front.y) };
         front.time = time;
         counts.steps += 1;
         counts.orientation_drift = counts.orientation_drift.max(strayed);
@@ -144,14 +172,14 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
     /// A first length, from the sizes of the first and second derivative (Hairer, Nørsett, Wanner,
     /// Solving ODEs I, §II.4).
     fn first_length(&mut self, problem: &mut P, limits: &Limits, left: f64, counts: &mut Counts) -> f64 {
-        let Self { start_rest: guess, start, slope, end_slope, increment, .. } = self;
+        let Self { start_rest: guess, end_slope, last: Stride { at, start, slope, increment, .. }, .. } = self;
         let size = |problem: &P, v: &P::Y, y: &P::Y| problem.error_size(y, y, v, &limits.scales) / limits.local;
         let d1 = size(problem, slope, start);
         let h0 = if d1 > 0.0 { (0.01 / (d1 * limits.local)).min(left) } else { left };
 
         // an Euler step shows how fast the slope changes
         guess.set_sum(start, h0, slope);
-        problem.rate(self.at.after(h0), guess, end_slope);
+        problem.rate(at.after(h0), guess, end_slope);
         counts.evaluations += 1;
         increment.set_sum(end_slope, -1.0, slope);
         let d2 = size(problem, increment, start) / h0;
@@ -159,36 +187,69 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
         if steepest > 0.0 { libm::pow(0.01 / steepest, 1.0 / K::ERROR_ORDER).min(100.0 * h0) } else { left }
     }
 
-    /// Takes a step that was begun, which ends at `limit` or before it.
+    /// Takes steps of given lengths, as [`advance`](Integrator::advance) does.
     #[inline(always)]
-    fn take_step(
+    fn advance_given(
         &mut self,
         problem: &mut P,
         front: &mut Front<P::Y>,
-        limit: f64,
+        (to, limit): (f64, f64),
         counts: &mut Counts,
     ) -> Result<(), FlightError> {
-        let step = match &self.control {
-            Control::Step(step) => *step,
-            Control::Mesh(mesh) => front.time.until(mesh.end_after(front.time.value)),
-            Control::Error(limits) => {
-                let limits = *limits;
-                if K::ESTIMATES_ERROR {
-                    return self.advance_controlled(problem, front, limit, &limits, counts);
-                }
-                limits.longest
+        // on copies that nobody else knows the place of: what one step leaves in registers the next finds there
+        let mut here = Front { y: front.y.take(), rest: front.rest.take(), ..*front };
+        let mut last = self.last.take();
+        let outcome = loop {
+            self.begin(problem, &here, &mut last, counts);
+            let step = match &self.control {
+                Control::Step(step) => *step,
+                Control::Mesh(mesh) => here.time.until(mesh.end_after(here.time.value)),
+                Control::Error(limits) => limits.longest,
+            };
+            let (h, time) = cut(here.time, step, limit);
+            last.attempt(&mut self.kernel, problem, &mut here, h, self.projection);
+            self.count(counts);
+            self.accept(problem, &mut here, last.strayed, time, counts);
+            if !here.y.is_finite() {
+                // the front stays where the motion is still known
+                (here.y, here.time) = (last.start.clone(), last.began);
+                here.rest.as_mut().fill(0.0);
+                break Err(FlightError::NotFinite);
+            }
+            if here.time.value >= to {
+                break Ok(());
             }
         };
-
-        let (h, time) = cut(front.time, step, limit);
-        self.attempt(problem, front, h);
-        self.count(counts);
-        self.accept(problem, front, time, counts);
-        Ok(())
+        *front = here;
+        self.last = last;
+        outcome
     }
 
-    /// The same where the error decides the length.
+    /// The same where the error decides the lengths.
     fn advance_controlled(
+        &mut self,
+        problem: &mut P,
+        front: &mut Front<P::Y>,
+        (to, limit): (f64, f64),
+        limits: &Limits,
+        counts: &mut Counts,
+    ) -> Result<(), FlightError> {
+        loop {
+            let mut last = self.last.take();
+            self.begin(problem, front, &mut last, counts);
+            self.last = last;
+            self.take_controlled(problem, front, limit, limits, counts)?;
+            if !front.y.is_finite() {
+                return Err(FlightError::NotFinite);
+            }
+            if front.time.value >= to {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Takes a step that was begun, which ends at `limit` or before it, as long as its error allows.
+    fn take_controlled(
         &mut self,
         problem: &mut P,
         front: &mut Front<P::Y>,
@@ -217,8 +278,8 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
                 return Err(FlightError::StepTooShort(h));
             }
 
-            self.attempt(problem, front, h);
-            let error = self.kernel.error(problem, &self.start, &front.y, h, &limits.scales);
+            self.last.attempt(&mut self.kernel, problem, front, h, self.projection);
+            let error = self.kernel.error(problem, &self.last.start, &front.y, h, &limits.scales);
             self.count(counts);
             let size = if front.y.is_finite() { error / limits.local } else { f64::INFINITY };
             if size == f64::INFINITY
@@ -226,7 +287,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
             {
                 // the path may not lead where the function gave up: shorter, but not for ever
                 if self.failures == 0 {
-                    self.failed_end = self.at.time + h;
+                    self.failed_end = self.last.at.time + h;
                 }
                 self.failures += 1;
                 if self.failures >= FAILURES {
@@ -243,7 +304,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
                 self.proposal = if h < wanted { next.max(self.proposal) } else { next };
                 self.last_error = size;
                 let time = if last { Time::new(limit) } else { front.time + h };
-                self.accept(problem, front, time, counts);
+                self.accept(problem, front, self.last.strayed, time, counts);
                 if front.time.value >= self.failed_end {
                     self.failures = 0;
                 }
@@ -252,7 +313,7 @@ impl<P: Problem, K: Kernel<P::Y>> Stepper<P, K> {
 
             // refused, or not a number: shorter, and no growth right after
             counts.rejected += 1;
-            front.y.clone_from(&self.start);
+            front.y.clone_from(&self.last.start);
             front.rest.clone_from(&self.start_rest);
             grow = 1.0;
             let factor = if size.is_finite() { CAUTION * libm::pow(size, -1.0 / K::ERROR_ORDER) } else { GROWTH.0 };
@@ -267,39 +328,36 @@ impl<P: Problem, K: Kernel<P::Y>> Integrator<P> for Stepper<P, K> {
         &mut self,
         problem: &mut P,
         front: &mut Front<P::Y>,
-        (to, limit): (f64, f64),
+        span: (f64, f64),
         counts: &mut Counts,
     ) -> Result<(), FlightError> {
-        loop {
-            self.began = front.time;
-            self.begin(problem, front, counts);
-            self.take_step(problem, front, limit, counts)?;
-            if !front.y.is_finite() {
-                return Err(FlightError::NotFinite);
+        match self.control {
+            Control::Error(limits) if K::ESTIMATES_ERROR => {
+                self.advance_controlled(problem, front, span, &limits, counts)?;
             }
-            if front.time.value >= to {
-                // what the last step has strayed is put right by the next
-                counts.orientation_drift = counts.orientation_drift.max(problem.orientation_error(&front.y));
-                return Ok(());
-            }
+            _ => self.advance_given(problem, front, span, counts)?,
         }
+        // what the last step has strayed is put right by the next
+        counts.orientation_drift = counts.orientation_drift.max(problem.orientation_error(&front.y));
+        Ok(())
     }
 
     fn last_start(&self) -> Time {
-        self.began
+        self.last.began
     }
 
     fn interpolate(&mut self, problem: &mut P, front: &Front<P::Y>, segment: &mut Segment, counts: &mut Counts) {
         if !K::NEEDS_SLOPE {
-            problem.rate(self.at, &self.start, &mut self.slope);
+            let Stride { at, start, slope, .. } = &mut self.last;
+            problem.rate(*at, start, slope);
             counts.evaluations += 1;
         }
         if !self.slope_known {
-            problem.rate(self.at.after(self.h), &front.y, &mut self.end_slope);
+            problem.rate(self.last.at.after(self.last.h), &front.y, &mut self.end_slope);
             self.slope_known = K::NEEDS_SLOPE;
             counts.evaluations += 1;
         }
-        let Self { at, h, start, slope, end_slope, kernel, .. } = self;
+        let Self { last: Stride { at, h, start, slope, .. }, end_slope, kernel, .. } = self;
         let step = Step { at: *at, h: *h, y0: start, k0: slope, y1: &front.y, k1: end_slope };
         counts.evaluations += u64::from(kernel.interpolate(problem, &step, segment));
     }

@@ -110,6 +110,11 @@ impl<const WORLD_AXES: bool> StateVector for Unloaded<WORLD_AXES> {
 
     #[inline(always)]
     fn take_back(&mut self, _lent: Self) {}
+
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        self.clone()
+    }
 }
 
 /// Declares the kinds of single bodies: how many numbers they have, whether world axes, body
