@@ -166,7 +166,7 @@ impl Chunk {
         for (drift, momentum) in drift.iter_mut().zip(&self.momentum) {
             for (drift, (p, inverse)) in drift.iter_mut().zip(momentum.iter().zip(&self.inv_mass)) {
                 let v = inverse * p;
-                *drift = h / 6.0 * (v + 2.0 * v + 2.0 * v + v);
+                *drift = h / 6.0 * (v + 2.0 * (v + v) + v);
             }
         }
 
@@ -213,7 +213,7 @@ fn step<const FAR: bool>(
         let k2 = rate(&stage(0.5 * h, &k1), &inverse, &gap);
         let k3 = rate(&stage(0.5 * h, &k2), &inverse, &gap);
         let k4 = rate(&stage(h, &k3), &inverse, &gap);
-        let mut dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+        let mut dy: [f64; 7] = std::array::from_fn(|i| h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
 
         // the change of q is amended as the projection of one body does
         let e = (at[0] * at[0] + at[1] * at[1]) + (at[2] * at[2] + at[3] * at[3]) - 1.0;
@@ -235,9 +235,9 @@ fn rate(&[s, x, y, z, a, b, c]: &[f64; 7], inverse: &[f64; 3], gaps: &[f64; 3]) 
     let (u, v, w) = (0.5 * (inverse[0] * a), 0.5 * (inverse[1] * b), 0.5 * (inverse[2] * c));
     [
         -(u * x + v * y + w * z),
-        s * u - (v * z - w * y),
-        s * v - (w * x - u * z),
-        s * w - (u * y - v * x),
+        s * u - v * z + w * y,
+        s * v - w * x + u * z,
+        v * x + s * w - u * y,
         gaps[0] * (b * c),
         gaps[1] * (c * a),
         gaps[2] * (a * b),

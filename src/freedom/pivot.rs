@@ -22,6 +22,8 @@ pub struct Pivot {
     point: Vector3,
     /// From the pivot to the centre of mass, body axes [m].
     arm_body: Vector3,
+    /// The same in the axes that the orientation leads from [m].
+    arm_own: Vector3,
 }
 
 impl Pivot {
@@ -37,7 +39,9 @@ impl Pivot {
             return Err(Error::value(place, "velocity", allowed, motion.velocity.as_slice()));
         }
         let inertia = super::about_point(motion, &arm_body);
-        Ok(Self { spin: Spin::new(form, inertia), point: pivot, arm_body })
+        let spin = Spin::new(form, inertia);
+        let arm_own = spin.own_axes(&arm_body);
+        Ok(Self { spin, point: pivot, arm_body, arm_own })
     }
 
     /// Inertia about the pivot, body axes [kg·m²].
@@ -76,7 +80,7 @@ impl Pivot {
 
     #[inline(always)]
     pub(super) fn rate_constant(&self, y: &[f64], load: &Load, dy: &mut [f64]) {
-        self.spin.rate_constant(y, &self.arm_body, load, dy);
+        self.spin.rate_constant(y, &self.arm_own, load, dy);
     }
 
     #[inline(always)]

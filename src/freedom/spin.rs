@@ -42,6 +42,8 @@ pub(crate) struct Spin {
     inv_inertia: Matrix3,
     /// Inverses of the principal moments about the point [1/(kg·m²)].
     inv_moments: Vector3,
+    /// Half of them: what turns L into half the angular velocity.
+    half_inv_moments: Vector3,
     /// `1/I_k − 1/I_j` of the axes i, j, k in their cycle [1/(kg·m²)].
     gaps: Vector3,
     /// From principal to body axes, where they differ.
@@ -105,7 +107,8 @@ impl Spin {
         let inv_moments = moments.map(|moment| 1.0 / moment);
         // no difference of inverses: nothing cancels where moments are close
         let gap = |j: usize, k: usize| (moments[j] - moments[k]) * inv_moments[j] * inv_moments[k];
-        Self { form, inv_inertia, inv_moments, gaps: Vector3::new(gap(1, 2), gap(2, 0), gap(0, 1)), axes }
+        let gaps = Vector3::new(gap(1, 2), gap(2, 0), gap(0, 1));
+        Self { form, inv_inertia, inv_moments, half_inv_moments: 0.5 * inv_moments, gaps, axes }
     }
 
     /// How orientation and angular momentum are written.
@@ -221,17 +224,24 @@ impl Spin {
         }
     }
 
-    /// The same under a load of which the force acts at `arm` from the point, body axes. In body axes the torque is
-    /// `arm × Rᵀ F + Rᵀ M`, with `R = M/|q|²`: nothing of the motion is read but R.
+    /// A vector of the body in the axes that the orientation leads from: the principal ones in the body form.
+    pub(super) fn own_axes(&self, v: &Vector3) -> Vector3 {
+        self.axes.as_ref().filter(|_| self.form == Form::Body).map_or(*v, |(_, axes)| axes.tr_mul(v))
+    }
+
+    /// The same under a load of which the force acts at `arm` from the point, [own axes](Self::own_axes). In the body
+    /// form the torque is `arm × Rᵀ F + Rᵀ M`: nothing of the motion is read but what turns F and M.
     #[inline(always)]
     pub(super) fn rate_constant(&self, y: &[f64], arm: &Vector3, load: &Load, dy: &mut [f64]) {
         if self.form == Form::Body {
-            let (scaled, n) = quaternion::to_scaled_matrix(&quaternion_at(y));
-            // the arm in principal axes, where the matrix leads to
-            let arm = self.axes.as_ref().map_or(*arm, |(_, axes)| axes.tr_mul(arm));
-            let torque = (arm.cross(&scaled.tr_mul(&load.force)) + scaled.tr_mul(&load.torque)) * (1.0 / n);
+            let q = quaternion_at(y);
+            let (force, n) = quaternion::turned_back(&q, &load.force);
+            let mut torque = arm.cross(&force);
+            if load.torque != Vector3::zeros() {
+                torque += quaternion::turned_back(&q, &load.torque).0;
+            }
             self.rate_body(y, dy);
-            add(&mut dy[4..], &torque);
+            add(&mut dy[4..], &(torque * (1.0 / n)));
         } else {
             let (_, r, w) = self.decode(y);
             self.rate(y, &r, &w, &(load.torque + (r * arm).cross(&load.force)), dy);
@@ -266,8 +276,9 @@ impl Spin {
     #[inline(always)]
     fn rate_body(&self, y: &[f64], dy: &mut [f64]) {
         let [a, b, c] = [y[4], y[5], y[6]];
-        let w = self.inv_moments.component_mul(&Vector3::new(a, b, c));
-        put_quaternion(dy, &quaternion::rate_body(&w, &quaternion_at(y)));
+        let half = &self.half_inv_moments;
+        let dq = quaternion::turned([y[0], y[1], y[2], y[3]], [half.x * a, half.y * b, half.z * c]);
+        dy[..4].copy_from_slice(&dq);
         put(&mut dy[4..], &self.gaps.component_mul(&Vector3::new(b * c, c * a, a * b)));
     }
 

@@ -3,7 +3,7 @@
 //! ```text
 //! k₁ = Y′(t, Y)                 k₂ = Y′(t + ½h, Y + ½h k₁)
 //! k₃ = Y′(t + ½h, Y + ½h k₂)    k₄ = Y′(t + h, Y + h k₃)
-//! Y₁ = Y + h/6 (k₁ + 2 k₂ + 2 k₃ + k₄)
+//! Y₁ = Y + h/6 (k₁ + 2 (k₂ + k₃) + k₄)
 //! ```
 //!
 //! Order 4 for 4 evaluations, with the angular momentum in body axes: the same method on the
@@ -46,7 +46,8 @@ impl<Y: StateVector> super::Kernel<Y> for Kernel<Y> {
         problem.rate(middle, stage, k3);
         stage.set_sum(y, h, k3);
         problem.rate(at.after(h), stage, k4);
-        dy.set_increment(h / 6.0, [(1.0, k0), (2.0, k2), (2.0, k3), (1.0, k4)]);
+        k2.add_scaled(1.0, k3);
+        dy.set_increment(h / 6.0, [(1.0, k0), (2.0, k2), (1.0, k4)]);
 
         self.stage.take_back(work.0);
         self.k2.take_back(work.1);
