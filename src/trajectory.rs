@@ -165,6 +165,14 @@ impl Trajectory {
         self.keeps_motion() || self.times.get(cursor).is_some_and(|&t| t < end)
     }
 
+    /// The instant before which steps that end there need not be looked into [s].
+    pub(crate) fn next_look(&self, cursor: usize) -> f64 {
+        if self.keeps_motion() {
+            return f64::NEG_INFINITY;
+        }
+        self.times.get(cursor).copied().unwrap_or(f64::INFINITY)
+    }
+
     /// The place of the phase that goes on from `phase` at `start` [s] with these loads off: the same, or a new one.
     pub(crate) fn phase_with(&mut self, phase: usize, off: &[usize], start: f64) -> usize {
         if self.phases[phase].off == off {

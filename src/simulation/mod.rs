@@ -225,6 +225,9 @@ const NUDGE: f64 = 4.0 * f64::EPSILON;
 /// The most by which a pass may be nudged more than the next finer one [-]: what methods of high order are trusted to
 /// gain is more, and would stand out.
 const MOST_GAIN: f64 = 64.0;
+/// Steps that are taken before someone who looks on is told [-]: at most some 0.1 ms of cheap ones. Larger: a run that
+/// is stopped goes on for longer. Smaller: what a step costs beside the integrator shows.
+const UNSEEN: f64 = 256.0;
 
 impl Grain {
     /// What the options say.
@@ -422,7 +425,17 @@ impl Simulation {
             return Ok(());
         }
         let taken = lane.flight.advance_past(to, switch.min(self.end));
-        taken.map_err(|error| self.failure(index, front, error.into()))
+        taken.map_err(|error| self.failure(index, self.lanes[index].flight.front(), error.into()))
+    }
+
+    /// The same before the next sample and the time `end` [s], and no more steps than someone who looks on can wait for.
+    fn skip_unseen(&mut self, index: usize, run: &Trajectory, end: f64) -> Result<(), SimulationError> {
+        let Some(step) = self.plan.options().step else { return Ok(()) };
+        // a pass that estimates the error takes steps twice as long
+        let (lane, longest) = (&self.lanes[index], 2.0 * step);
+        let front = lane.flight.front();
+        let to = run.next_look(lane.cursor).min(end) - 2.0 * longest;
+        if to > front { self.advance_unseen(index, to.min(front + UNSEEN * step)) } else { Ok(()) }
     }
 
     /// One step of a lane that meets nobody: step, record.

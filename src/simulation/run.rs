@@ -362,12 +362,16 @@ impl Course<'_> {
                 break;
             }
             let mut ended = Ok(());
-            while ended.is_ok() && simulation.lanes[lane].flight.front() < until(&simulation, &broken) {
-                ended = simulation.step_lane(lane, &mut Some(&mut run));
-                let done = (simulation.lanes[lane].flight.front() - span.start) / (span.end - span.start);
+            let front = |simulation: &Simulation| simulation.lanes[lane].flight.front();
+            while ended.is_ok() && front(&simulation) < until(&simulation, &broken) {
+                ended = simulation.skip_unseen(lane, &run, until(&simulation, &broken));
+                if ended.is_ok() {
+                    ended = simulation.step_lane(lane, &mut Some(&mut run));
+                }
+                let done = (front(&simulation) - span.start) / (span.end - span.start);
                 let progress = Progress { fraction: part(meeting + k) + part(1) * done, pass: number };
                 if observer(progress).is_break() {
-                    let time = simulation.lanes[lane].flight.front();
+                    let time = front(&simulation);
                     ended = Err(simulation.failure(lane, time, Failure::Interrupted));
                 }
             }
