@@ -6,6 +6,7 @@ Run it after a change of documentation: python python/stub_docs.py && ruff check
 import ast
 import importlib
 import inspect
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -34,6 +35,8 @@ def documented(tree: ast.Module, module: ModuleType) -> Iterator[tuple[Documente
 
 def main() -> None:
     """Writes the stubs."""
+    # the built package, not the sources beside this file
+    sys.path = [place for place in sys.path if Path(place).resolve() != PACKAGE.parent]
     for name in MODULES:
         path = PACKAGE / f"{name}.pyi"
         tree = ast.parse(path.read_text(encoding="utf-8"))
