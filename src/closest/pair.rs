@@ -38,7 +38,7 @@ use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Quaternion, Vector3};
-use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, highest_of, top_of};
+use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, top_of};
 
 /// A vertex of each body.
 pub(super) type Ids = [u32; 2];
@@ -442,13 +442,8 @@ fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, floor: f64, d: &[f64;
     let mut best = (at, top);
     while next < count {
         for block in body.ring_blocks(seen[next] as usize) {
-            let heights = block.heights(d);
-            if highest_of(&heights) < floor {
-                continue;
-            }
-            for (lane, &h) in heights.iter().enumerate() {
-                let k = block.ids()[lane];
-                if h < floor || seen[..count].iter().any(|&known| known == k) {
+            for (k, h) in block.from_height(floor, d) {
+                if seen[..count].iter().any(|&known| known == k) {
                     continue;
                 }
                 if h > best.1 {

@@ -10,7 +10,7 @@
 //! rounded. The second is small, and its rounding as much below that of the sum. So every entry of the
 //! matrix is rounded once. Both bodies go side by side.
 
-use std::ops::{Add, Mul, Sub};
+use wide::f64x2;
 
 use super::vector::Vec3;
 use crate::math::Quaternion;
@@ -57,39 +57,11 @@ impl<R: Real> Rotations<R> {
     }
 }
 
-/// Two numbers that share their operations.
-#[derive(Debug, Clone, Copy)]
-struct Two([f64; 2]);
-
-impl Add for Two {
-    type Output = Self;
-    #[inline]
-    fn add(self, o: Self) -> Self {
-        Self([self.0[0] + o.0[0], self.0[1] + o.0[1]])
-    }
-}
-
-impl Sub for Two {
-    type Output = Self;
-    #[inline]
-    fn sub(self, o: Self) -> Self {
-        Self([self.0[0] - o.0[0], self.0[1] - o.0[1]])
-    }
-}
-
-impl Mul for Two {
-    type Output = Self;
-    #[inline]
-    fn mul(self, o: Self) -> Self {
-        Self([self.0[0] * o.0[0], self.0[1] * o.0[1]])
-    }
-}
-
 /// The rotations of two quaternions `q/|q|`; see the [module](self).
 #[inline]
 pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
-    let (leading, one) = (Two([LEADING; 2]), Two([1.0; 2]));
-    let q = [Two([a.w, b.w]), Two([a.i, b.i]), Two([a.j, b.j]), Two([a.k, b.k])];
+    let (leading, one) = (f64x2::splat(LEADING), f64x2::splat(1.0));
+    let q = [[a.w, b.w], [a.i, b.i], [a.j, b.j], [a.k, b.k]].map(f64x2::from);
     let f = q.map(|x| (x + leading) - leading);
     let rest = [q[0] - f[0], q[1] - f[1], q[2] - f[2], q[3] - f[3]];
 
@@ -98,11 +70,13 @@ pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
     let small = [0, 1, 2, 3].map(|i| (q[i] + f[i]) * rest[i]);
     let excess =
         (((square[0] + square[2]) + (square[1] + square[3])) - one) + ((small[0] + small[2]) + (small[1] + small[3]));
-    let largest = excess.0[0].abs().max(excess.0[1].abs());
+    let excesses = excess.to_array();
+    let largest = excesses[0].abs().max(excesses[1].abs());
     if largest > NEARLY_UNIT {
         return Rotations::of(&rotation(a), &rotation(b));
     }
-    let less = if largest > UNIT_EXCESS { Two(excess.0.map(less_than_one)) } else { Two([0.5; 2]) * excess };
+    let less =
+        if largest > UNIT_EXCESS { f64x2::from(excesses.map(less_than_one)) } else { f64x2::splat(0.5) * excess };
     let r = [0, 1, 2, 3].map(|i| rest[i] - less * q[i]);
     let q = [0, 1, 2, 3].map(|i| f[i] + r[i]);
 
@@ -117,7 +91,7 @@ pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
         [(xy + wz) + (xy_ + wz_), (one - (xx + zz)) - (xx_ + zz_), (yz - wx) + (yz_ - wx_)],
         [(xz - wy) + (xz_ - wy_), (yz + wx) + (yz_ + wx_), (one - (xx + yy)) - (xx_ + yy_)],
     ];
-    Rotations(entries.map(|row| row.map(|x| x.0)))
+    Rotations(entries.map(|row| row.map(f64x2::to_array)))
 }
 
 /// The rotation of `q/|q|` as rows, rounded once.

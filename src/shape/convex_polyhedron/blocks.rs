@@ -1,6 +1,6 @@
 //! Vertices in fours, so that the machine works out their heights side by side.
 
-use super::vector::dot;
+use wide::f64x4;
 
 /// Four vertices about the centre, body axes [m]; where fewer are left, the first of them again.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,38 +24,31 @@ impl Block {
 
     /// The height of each along `d`.
     #[inline]
-    pub(crate) fn heights(&self, d: &[f64; 3]) -> [f64; 4] {
-        std::array::from_fn(|k| dot(&[self.x[k], self.y[k], self.z[k]], d))
+    pub(crate) fn heights(&self, d: &[f64; 3]) -> f64x4 {
+        let [x, y, z] = [self.x, self.y, self.z].map(f64x4::from);
+        let [a, b, c] = d.map(f64x4::splat);
+        x * a + y * b + z * c
     }
 
-    /// Which vertices they are.
+    /// The vertices at a height along `d` from `floor` on, and their heights.
     #[inline]
-    pub(crate) fn ids(&self) -> &[u32; 4] {
-        &self.ids
+    pub(crate) fn from_height(&self, floor: f64, d: &[f64; 3]) -> impl Iterator<Item = (u32, f64)> {
+        let heights = self.heights(d);
+        let mut left = heights.simd_ge(f64x4::splat(floor)).to_bitmask();
+        std::iter::from_fn(move || {
+            let lane = left.trailing_zeros() as usize;
+            left &= left.wrapping_sub(1);
+            Some((*self.ids.get(lane)?, heights.to_array()[lane]))
+        })
     }
-}
-
-/// The larger number; the second where one is none.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// The largest of four heights.
-#[inline]
-pub(crate) fn highest_of(h: &[f64; 4]) -> f64 {
-    larger(larger(h[0], h[2]), larger(h[1], h[3]))
 }
 
 /// The height of the highest vertex along `d`; of none `f64::MIN`.
 #[inline]
 pub(crate) fn top_of(blocks: &[Block], d: &[f64; 3]) -> f64 {
-    let mut tops = [f64::MIN; 4];
-    for block in blocks {
-        let h = block.heights(d);
-        tops = std::array::from_fn(|k| larger(h[k], tops[k]));
-    }
-    highest_of(&tops)
+    let tops = blocks.iter().fold(f64x4::splat(f64::MIN), |tops, block| block.heights(d).fast_max(tops)).to_array();
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    larger(larger(tops[0], tops[2]), larger(tops[1], tops[3]))
 }
 
 /// The first of the highest vertices along `d`, and its height.
@@ -63,7 +56,7 @@ pub(crate) fn top_of(blocks: &[Block], d: &[f64; 3]) -> f64 {
 pub(crate) fn highest(blocks: &[Block], d: &[f64; 3]) -> (u32, f64) {
     let mut best = (0, f64::MIN);
     for block in blocks {
-        for (k, h) in block.ids.iter().zip(block.heights(d)) {
+        for (k, h) in block.ids.iter().zip(block.heights(d).to_array()) {
             if h > best.1 {
                 best = (*k, h);
             }
