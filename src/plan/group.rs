@@ -22,8 +22,8 @@ pub trait Kind: Debug + Send + 'static {
     /// See [`WORLD_AXES`](Self::WORLD_AXES).
     const BODY_AXES: bool = true;
 
-    /// Whether it is known that nothing acts on the bodies.
-    const UNLOADED: bool = false;
+    /// What is known of what acts on the bodies.
+    const LOADS: Loads = Loads::Any;
 
     /// The same charts, of which the compiler knows more afterwards.
     fn narrow(charts: &[Chart]) -> &[Chart];
@@ -50,6 +50,31 @@ pub trait Kind: Debug + Send + 'static {
             at = part.end;
         }
         worst
+    }
+}
+
+/// What may act on the bodies of a group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Loads {
+    /// Nothing.
+    None,
+    /// What depends neither on time nor on the motion, such as gravity.
+    Constant,
+    /// Whatever there is.
+    Any,
+}
+
+impl Loads {
+    /// Whether no more than this acts on the bodies, and the method's steps are worth a step compiled apart.
+    fn suit(self, bodies: &Bodies, method: Method) -> bool {
+        match self {
+            Self::None => bodies.bindings.is_empty() && method.has_short_steps(),
+            Self::Constant => {
+                !bodies.bindings.is_empty()
+                    && bodies.bindings.iter().all(|binding| binding.effect.as_effect().is_constant())
+            }
+            Self::Any => true,
+        }
     }
 }
 
@@ -117,10 +142,10 @@ impl<const WORLD_AXES: bool> StateVector for Unloaded<WORLD_AXES> {
     }
 }
 
-/// Declares the kinds of single bodies: how many numbers they have, whether world axes, body
-/// axes and the absence of loads are meant, and what their only chart is.
+/// Declares the kinds of single bodies: how many numbers they have, whether world axes and body
+/// axes are meant, what may act on them, and what their only chart is.
 macro_rules! single {
-    ($($(#[$doc:meta])* $kind:ident: [$y:ty, $world:literal, $body:literal, $unloaded:literal] $pattern:pat $(if $known:expr)?,)*) => {
+    ($($(#[$doc:meta])* $kind:ident: [$y:ty, $world:literal, $body:literal, $loads:ident] $pattern:pat $(if $known:expr)?,)*) => {
         $(
             $(#[$doc])*
             #[derive(Debug)]
@@ -130,7 +155,7 @@ macro_rules! single {
                 type Y = $y;
                 const WORLD_AXES: bool = $world;
                 const BODY_AXES: bool = $body;
-                const UNLOADED: bool = $unloaded;
+                const LOADS: Loads = Loads::$loads;
 
                 #[inline(always)]
                 fn narrow(charts: &[Chart]) -> &[Chart] {
@@ -149,7 +174,7 @@ macro_rules! single {
                 return fly_to_order(bodies, method, course, t, y);
             }
             match bodies.charts.as_slice() {
-                $([$pattern] if $($known &&)? (!$unloaded || bodies.bindings.is_empty() && method.has_short_steps()) => fly::<$kind>(bodies, method, course, t, y),)*
+                $([$pattern] if $($known &&)? Loads::$loads.suit(&bodies, method) => fly::<$kind>(bodies, method, course, t, y),)*
                 _ => fly::<Any>(bodies, method, course, t, y),
             }
         }
@@ -158,17 +183,19 @@ macro_rules! single {
 
 single! {
     /// A free body on which nothing acts, with q and L in body axes, in short steps.
-    UnloadedBodyAxes: [Unloaded<false>, false, true, true] Chart::Free(c) if c.spin().form() == Form::Body,
+    UnloadedBodyAxes: [Unloaded<false>, false, true, None] Chart::Free(c) if c.spin().form() == Form::Body,
     /// A free body on which nothing acts, with q and L in world axes, in short steps.
-    UnloadedWorldAxes: [Unloaded<true>, true, false, true] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    UnloadedWorldAxes: [Unloaded<true>, true, false, None] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
     /// A free body with q and L in body axes.
-    FreeBodyAxes: [[f64; 13], false, true, false] Chart::Free(c) if c.spin().form() == Form::Body,
+    FreeBodyAxes: [[f64; 13], false, true, Any] Chart::Free(c) if c.spin().form() == Form::Body,
     /// A free body with q and L in world axes.
-    FreeWorldAxes: [[f64; 13], true, false, false] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    FreeWorldAxes: [[f64; 13], true, false, Any] Chart::Free(c) if c.spin().form() == Form::WorldQuaternion,
+    /// A top on which only what is constant acts, with q and L in body axes.
+    ConstantPivotBodyAxes: [[f64; 7], false, true, Constant] Chart::Pivot(c) if c.spin().form() == Form::Body,
     /// A top with q and L in body axes.
-    PivotBodyAxes: [[f64; 7], false, true, false] Chart::Pivot(c) if c.spin().form() == Form::Body,
+    PivotBodyAxes: [[f64; 7], false, true, Any] Chart::Pivot(c) if c.spin().form() == Form::Body,
     /// A body in a plane.
-    InPlane: [[f64; 6], true, true, false] Chart::Planar(_),
+    InPlane: [[f64; 6], true, true, Any] Chart::Planar(_),
 }
 
 /// Bodies of a group: their coordinates, their motions at the start, and what acts on them.
@@ -342,7 +369,7 @@ impl<K: Kind> Problem for Group<K> {
     type Y = K::Y;
     const WORLD_AXES: bool = K::WORLD_AXES;
     const BODY_AXES: bool = K::BODY_AXES;
-    const SHORT_STEPS: bool = K::UNLOADED;
+    const SHORT_STEPS: bool = matches!(K::LOADS, Loads::None);
 
     fn dimension(&self) -> usize {
         self.charts.iter().map(Chart::dimension).sum()
@@ -354,10 +381,11 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn rate(&mut self, at: Moment, y: &K::Y, dy: &mut K::Y) {
-        match (K::UNLOADED, self.is_loaded) {
-            (true, _) => K::rate_unloaded(&self.charts, y, dy),
-            (false, false) => self.drift(y, dy),
-            (false, true) => self.rate_loaded(at, y, dy),
+        match K::LOADS {
+            Loads::None => K::rate_unloaded(&self.charts, y, dy),
+            Loads::Constant => self.rate_constant(y.as_ref(), dy.as_mut()),
+            Loads::Any if self.is_loaded => self.rate_loaded(at, y, dy),
+            Loads::Any => self.drift(y, dy),
         }
     }
 
@@ -367,7 +395,7 @@ impl<K: Kind> Problem for Group<K> {
     }
 
     fn is_loaded(&self) -> bool {
-        !K::UNLOADED && self.is_loaded
+        K::LOADS != Loads::None && self.is_loaded
     }
 
     fn depends_on_velocity(&self) -> bool {
@@ -425,7 +453,7 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn project(&mut self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
-        if K::UNLOADED { K::project(&self.charts, y, rest, dy) } else { self.project_apart(y, rest, dy) }
+        if K::LOADS != Loads::Any { K::project(&self.charts, y, rest, dy) } else { self.project_apart(y, rest, dy) }
     }
 
     fn orientation_error(&self, y: &K::Y) -> f64 {
