@@ -302,18 +302,13 @@ impl Simulation {
 
     /// Keeps the time of a pair's bounce; a pair that has hit others in between is told by its own times only.
     fn watch(&mut self, pair: [usize; 2], time: f64) {
-        let at = self.bounces.iter().position(|(other, ..)| *other == pair).unwrap_or_else(|| {
-            self.bounces.push((pair, Accumulation::new(), None));
-            self.bounces.len() - 1
-        });
-        let (_, times, end) = &mut self.bounces[at];
+        let (times, end) = self.bounces.entry(pair).or_insert_with(|| (Accumulation::new(), None));
         *end = times.book(time, END_ERROR * time.abs()).map(|capture| capture.time);
     }
 
     /// When the bounces of a pair that rests from now on would have ended [s].
     fn end_of_bounces(&mut self, pair: [usize; 2], now: f64) -> f64 {
-        let Some(at) = self.bounces.iter().position(|(other, ..)| *other == pair) else { return now };
-        let (_, _, end) = self.bounces.swap_remove(at);
+        let end = self.bounces.remove(&pair).and_then(|(_, end)| end);
         end.map_or(now, |end| end.max(now))
     }
 

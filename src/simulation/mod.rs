@@ -8,6 +8,7 @@
 //! joined by a queue of what is due (see `near`); an impact concerns its cluster only. A scene without
 //! contact never meets any of that.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::contact::accumulation::Accumulation;
@@ -194,7 +195,7 @@ pub struct Simulation {
     /// Pairs that the laws of contact let go at the instant under consideration, and how fast they open [m/s].
     released: Vec<([usize; 2], f64)>,
     /// The last bounces of each pair, and when they would end [s].
-    bounces: Vec<([usize; 2], Accumulation, Option<f64>)>,
+    bounces: BTreeMap<[usize; 2], (Accumulation, Option<f64>)>,
     events: Vec<Event>,
     heat: Vec<Heat>,
     /// Work that bodies on prescribed motions do on others.
@@ -322,7 +323,7 @@ impl Simulation {
             joints: Vec::new(),
             parted: Vec::new(),
             released: Vec::new(),
-            bounces: Vec::new(),
+            bounces: BTreeMap::new(),
             events: Vec::new(),
             heat: Vec::new(),
             work: Vec::new(),

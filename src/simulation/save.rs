@@ -110,7 +110,7 @@ impl Simulation {
             riders: self.riders.clone(),
             joints: self.joints.clone(),
             parted: self.parted.clone(),
-            bounces: self.bounces.clone(),
+            bounces: self.bounces.iter().map(|(&pair, (times, end))| (pair, times.clone(), *end)).collect(),
             events: self.events.clone(),
             heat: self.heat.clone(),
             work: self.work.clone(),
@@ -177,7 +177,7 @@ impl Simulation {
         simulation.riders = saved.riders;
         simulation.joints = saved.joints;
         simulation.parted = saved.parted;
-        simulation.bounces = saved.bounces;
+        simulation.bounces = saved.bounces.into_iter().map(|(pair, times, end)| (pair, (times, end))).collect();
         simulation.events = saved.events;
         simulation.heat = saved.heat;
         simulation.work = saved.work;
