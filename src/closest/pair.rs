@@ -442,7 +442,7 @@ fn plateau_top(body: &ConvexPolyhedron, at: u32, top: f64, floor: f64, d: &[f64;
     let mut best = (at, top);
     while next < count {
         for block in body.ring_blocks(seen[next] as usize) {
-            for (k, h) in block.from_height(floor, d) {
+            for (k, h) in block.at_least(floor, d) {
                 if seen[..count].iter().any(|&known| known == k) {
                     continue;
                 }

@@ -453,7 +453,7 @@ impl<K: Kind> Problem for Group<K> {
 
     #[inline(always)]
     fn project(&mut self, y: &K::Y, rest: &K::Y, dy: &mut K::Y) -> f64 {
-        if K::LOADS != Loads::Any { K::project(&self.charts, y, rest, dy) } else { self.project_apart(y, rest, dy) }
+        if K::LOADS == Loads::Any { self.project_apart(y, rest, dy) } else { K::project(&self.charts, y, rest, dy) }
     }
 
     fn orientation_error(&self, y: &K::Y) -> f64 {

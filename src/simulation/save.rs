@@ -110,7 +110,7 @@ impl Simulation {
             riders: self.riders.clone(),
             joints: self.joints.clone(),
             parted: self.parted.clone(),
-            bounces: self.bounces.iter().map(|(&pair, (times, end))| (pair, times.clone(), *end)).collect(),
+            bounces: self.bounces.iter().map(|(&pair, (times, end))| (pair, *times, *end)).collect(),
             events: self.events.clone(),
             heat: self.heat.clone(),
             work: self.work.clone(),

@@ -24,7 +24,7 @@ impl Block {
 
     /// The height of each along `d`.
     #[inline]
-    pub(crate) fn heights(&self, d: &[f64; 3]) -> f64x4 {
+    fn heights(&self, d: &[f64; 3]) -> f64x4 {
         let [x, y, z] = [self.x, self.y, self.z].map(f64x4::from);
         let [a, b, c] = d.map(f64x4::splat);
         x * a + y * b + z * c
@@ -32,7 +32,7 @@ impl Block {
 
     /// The vertices at a height along `d` from `floor` on, and their heights.
     #[inline]
-    pub(crate) fn from_height(&self, floor: f64, d: &[f64; 3]) -> impl Iterator<Item = (u32, f64)> {
+    pub(crate) fn at_least(&self, floor: f64, d: &[f64; 3]) -> impl Iterator<Item = (u32, f64)> {
         let heights = self.heights(d);
         let mut left = heights.simd_ge(f64x4::splat(floor)).to_bitmask();
         std::iter::from_fn(move || {
