@@ -76,8 +76,18 @@ impl ComparisonTable {
             .light_line_style(WHITE)
             .draw()
             .map_err(|e| failed(&e))?;
-        for (line, &colour) in lines.iter().zip(COLOURS.iter().cycle()) {
+        // a colour for each method; rings where it went by tolerance, discs where by step
+        let mut methods: Vec<Method> = Vec::new();
+        for (method, _) in &lines {
+            if !methods.contains(method) {
+                methods.push(*method);
+            }
+        }
+        for line in &lines {
             let (method, by_tolerance) = *line;
+            let place = methods.iter().position(|other| *other == method).unwrap_or_default();
+            let colour = COLOURS[place % COLOURS.len()];
+            let inside = if by_tolerance { WHITE } else { colour };
             let line = points(line);
             let name = if by_tolerance {
                 format!("{method}, by tolerance")
@@ -88,13 +98,20 @@ impl ComparisonTable {
                 .draw_series(LineSeries::new(line.iter().copied(), colour.stroke_width(2)))
                 .map_err(|e| failed(&e))?
                 .label(name)
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
-            let dots = line.iter().map(|&p| Circle::new(p, 3, colour.filled()));
-            chart.draw_series(dots).map_err(|e| failed(&e))?;
+                .legend(move |(x, y)| {
+                    EmptyElement::at((x, y))
+                        + PathElement::new([(0, 0), (18, 0)], colour.stroke_width(2))
+                        + Circle::new((9, 0), 4, colour.filled())
+                        + Circle::new((9, 0), 2, inside.filled())
+                });
+            for (size, colour) in [(4, colour), (2, inside)] {
+                let dots = line.iter().map(|&p| Circle::new(p, size, colour.filled()));
+                chart.draw_series(dots).map_err(|e| failed(&e))?;
+            }
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(SeriesLabelPosition::LowerLeft)
             .background_style(WHITE.mix(0.9))
             .border_style(RGBColor(190, 190, 190))
             .draw()

@@ -226,8 +226,8 @@ const NUDGE: f64 = 4.0 * f64::EPSILON;
 /// The most by which a pass may be nudged more than the next finer one [-]: what methods of high order are trusted to
 /// gain is more, and would stand out.
 const MOST_GAIN: f64 = 64.0;
-/// Steps that are taken before someone who looks on is told [-]: at most some 0.1 ms of cheap ones. Larger: a run that
-/// is stopped goes on for longer. Smaller: what a step costs beside the integrator shows.
+/// Steps of one body that are taken before someone who looks on is told [-]: at most some 0.1 ms of cheap ones. Larger: a
+/// run that is stopped goes on for longer. Smaller: what a step costs beside the integrator shows.
 const UNSEEN: f64 = 256.0;
 
 impl Grain {
@@ -435,8 +435,9 @@ impl Simulation {
         // a pass that estimates the error takes steps twice as long
         let (lane, longest) = (&self.lanes[index], 2.0 * step);
         let front = lane.flight.front();
-        let to = run.next_look(lane.cursor).min(end) - 2.0 * longest;
-        if to > front { self.advance_unseen(index, to.min(front + UNSEEN * step)) } else { Ok(()) }
+        let most = UNSEEN / lane.spec.members.len() as f64 * step;
+        let to = (run.next_look(lane.cursor).min(end) - 2.0 * longest).min(front + most);
+        if to > front { self.advance_unseen(index, to) } else { Ok(()) }
     }
 
     /// One step of a lane that meets nobody: step, record.
