@@ -598,3 +598,23 @@ trait Kernel<Y: StateVector>: Debug + Send {
         0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finite_numbers_are_told_from_others_wherever_they_stand() {
+        // also where the sum alone overflows, and where infinities of both signs meet in it
+        assert!([1e308; 7].is_finite() && vec![f64::MAX; 2].is_finite() && Vec::new().is_finite());
+        for other in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for place in 0..7 {
+                let mut y = [1.0; 7];
+                y[place] = other;
+                assert!(!y.is_finite(), "{other} at {place}");
+                y[(place + 2) % 7] = f64::NEG_INFINITY;
+                assert!(!y.is_finite(), "{other} at {place}");
+            }
+        }
+    }
+}

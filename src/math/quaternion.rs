@@ -72,8 +72,8 @@ pub fn rate_body(w: &Vector3, q: &Quaternion) -> Quaternion {
     Quaternion::new(s, i, j, k)
 }
 
-/// `q [0, v]`, q scalar first: the rate of a quaternion from half the angular velocity, body axes. In pairs of numbers,
-/// on which the processor works at once.
+/// `q [0, v]`, q scalar first: the rate of a quaternion from half the angular velocity [rad/s], body axes, lecture (27).
+/// In pairs of numbers, on which the processor works at once.
 #[inline(always)]
 pub(crate) fn turned([w, i, j, k]: [f64; 4], v: [f64; 3]) -> [f64; 4] {
     let [a, b, c] = v.map(f64x2::splat);

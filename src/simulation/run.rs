@@ -22,7 +22,8 @@ pub struct Progress {
     pub pass: u32,
 }
 
-/// Told how far a run is, after every step; it may stop the run.
+/// Told how far a run is, after every step that is looked at, and after some hundred of those that are not; it may stop
+/// the run.
 pub type Observer<'a> = &'a mut dyn FnMut(Progress) -> ControlFlow<()>;
 
 impl Scene {

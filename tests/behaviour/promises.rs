@@ -1,6 +1,6 @@
 //! Bits, saved states, and samples.
 
-use super::{free_body, last};
+use super::{free_body, last, stepping_through};
 use bryla::{Body, Cuboid, Drag, HalfSpace, Method, Record, RunOptions, Scene, Simulation, Thruster, UniformGravity};
 
 /// The die on its table, with everything that a saved state must carry.
@@ -119,6 +119,32 @@ fn samples_are_where_they_were_asked_for() {
 }
 
 #[test]
+fn what_is_recorded_does_not_change_the_motion() {
+    // with few samples most steps are taken unseen, many at once; with all, one by one: the same steps, the same bits
+    let mut switched = free_body();
+    switched.add_effect(Thruster::new("body", [0.1, 0.2, 0.0], [2.0, 0.0, 1.0]).schedule([(0.31, 1.0), (0.62, 0.0)]));
+    let top = bryla::catalogue::heavy_top().unwrap();
+    let times = vec![0.0003, 0.25, 0.333, 0.3331, 0.9, 1.0];
+    for (name, scene) in [("free", free_body()), ("switched", switched), ("top", top)] {
+        for method in stepping_through(&scene) {
+            let scene = Scene { run: RunOptions::default(), ..scene.clone() };
+            let options = RunOptions::method(method).step(7e-4);
+            let run = |record| scene.run(0.0..1.0, &options.clone().t_eval(times.clone()).record(record)).unwrap();
+            let (seen, unseen) = (run(Record::Dense), run(Record::Samples));
+            let ends = scene.run(0.0..1.0, &options.clone().record(Record::End)).unwrap();
+            for (sample, t) in times.iter().enumerate() {
+                assert_eq!(seen.states(sample), unseen.states(sample), "{name}, {method}, {t}");
+            }
+            assert_eq!(last(&seen), last(&ends), "{name}, {method}");
+            for other in [unseen.report(), ends.report()] {
+                assert_eq!(seen.report().counts.steps, other.counts.steps, "{name}, {method}");
+            }
+            assert_eq!(seen.report().error_estimate, unseen.report().error_estimate, "{name}, {method}");
+        }
+    }
+}
+
+#[test]
 fn any_time_may_be_asked_for_afterwards() {
     // between samples the motion is that of the step, the cubic through its ends: error h⁴ of the fourth derivative
     let scene = free_body();
@@ -166,9 +192,19 @@ fn absurd_steps_end_in_a_named_error_and_never_in_nan() {
     let mut scene = free_body();
     scene.add_effect(Drag::new(0.0, 50.0));
     scene.add_effect(Thruster::new("body", [0.0; 3], [1e3, 0.0, 0.0]));
-    let error = scene.run(0.0..10.0, &RunOptions::method(Method::Euler).step(0.5).estimate(false)).unwrap_err();
-    let bryla::RunError::Simulation(error) = error else { panic!("{error}") };
-    assert!(error.to_string().ends_with("body: state is not finite"), "{error}");
-    let run = error.trajectory.as_ref().unwrap();
-    assert!((0..run.times().len()).all(|s| run.states(s).iter().all(bryla::BodyState::is_finite)));
+    // whoever looks on or not, the run ends where the last finite step does; if its motion is kept, that is finite too,
+    // or it ends where that step began
+    let mut ended = Vec::new();
+    for record in [Record::Dense, Record::Samples, Record::End] {
+        let options = RunOptions::method(Method::Euler).step(0.5).estimate(false).record(record);
+        let error = scene.run(0.0..1000.0, &options).unwrap_err();
+        let bryla::RunError::Simulation(error) = error else { panic!("{error}") };
+        assert!(error.to_string().ends_with("body: state is not finite"), "{error}");
+        let run = error.trajectory.as_ref().unwrap();
+        assert!((0..run.times().len()).all(|s| run.states(s).iter().all(bryla::BodyState::is_finite)));
+        ended.push((error.time, run.end()));
+    }
+    let [kept, samples, end] = ended[..] else { panic!("{ended:?}") };
+    assert!(samples == end && samples.0 > 0.0 && samples.0 == samples.1, "{ended:?}");
+    assert!([0.0, 0.5].contains(&(end.1 - kept.1)) && kept.0 == kept.1, "{ended:?}");
 }
