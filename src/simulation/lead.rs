@@ -160,7 +160,12 @@ impl Simulation {
         let jumps = cluster.bodies.iter().map(|&body| self.next_jump(body, time.value));
         let next = switches.copied().filter(|&s| s > time.value).chain(jumps).fold(self.end, f64::min);
         let touched = part.contacts.iter().flat_map(|&i| [cluster.contacts[i].a, cluster.contacts[i].b]);
-        let fastest = touched.map(|p| cluster.motions[p].angular_velocity.norm()).fold(0.0, f64::max);
+        let turning = touched.map(|p| cluster.motions[p].angular_velocity.norm());
+        let running = part.contacts.iter().filter_map(|&i| {
+            let [a, b] = [cluster.contacts[i].a, cluster.contacts[i].b].map(|p| &cluster.motions[p]);
+            Some(cluster.anchors[i]?.running(a, b))
+        });
+        let fastest = turning.chain(running).fold(0.0, f64::max);
         let by_load = if scales.pull > 0.0 { (scales.size / scales.pull).sqrt() } else { f64::INFINITY };
         let by_turning = if fastest > 0.0 { 1.0 / fastest } else { f64::INFINITY };
         let own = self.grain.step * STEP * by_load.min(by_turning);

@@ -425,10 +425,10 @@ fn losses_of_pairs_that_are_hit_at_once_are_never_negative_and_sum_up() {
 
 #[test]
 fn a_contact_that_cannot_be_followed_ends_the_run_by_name_with_all_that_was_computed() {
-    // an ellipsoid that rolls
-    let egg = Body::new("egg", bryla::Ellipsoid::new([0.1, 0.1, 0.15])).mass(1.0).position([0.0, 0.0, 0.5]);
-    let egg = egg.orientation([0.9, 0.3, 0.1, 0.3]).friction(0.5);
-    let mut scene = scene([floor().friction(0.5), egg]);
+    // an egg that spins on an egg
+    let egg = |name: &str, z: f64| Body::new(name, bryla::Ellipsoid::new([0.1, 0.1, 0.15])).position([0.0, 0.0, z]);
+    let floor = egg("floor", -0.15).fixed().friction(0.5);
+    let mut scene = scene([floor, egg("egg", 0.5).mass(1.0).angular_velocity([0.0, 0.0, 1.0]).friction(0.5)]);
     scene.add_effect(UniformGravity::new([0.0, 0.0, -10.0]));
     let RunError::Simulation(error) = scene.run(0.0..2.0, &RunOptions::tolerance(1e-9)).unwrap_err() else { panic!() };
     assert!(matches!(error.kind, bryla::simulation::Failure::LastingContact(_)), "{error}");

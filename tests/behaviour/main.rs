@@ -18,6 +18,7 @@ mod order;
 mod prescribed;
 mod promises;
 mod rest;
+mod rolling;
 mod series;
 mod sticking;
 mod switching;
