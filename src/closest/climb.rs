@@ -303,8 +303,12 @@ fn describe<R: Real>(
     let core_a = center + found.on_a.to_vector();
     let core_b = core_a + found.point.to_vector();
     let [feature_a, feature_b] = found.features;
-    let signed_distance = (found.normal.dot(&found.point) - rounding).to_f64();
-    debug_assert!(lower <= signed_distance && signed_distance <= upper, "{signed_distance:e} in {lower:e}..{upper:e}");
+
+    // the points are right to the gap at which a search ends, and the interval may be narrower
+    let along = (found.normal.dot(&found.point) - rounding).to_f64();
+    let signed_distance = along.max(lower).min(upper);
+    let off = (along - signed_distance).abs();
+    debug_assert!(off <= SEARCH_GAP * pair.size(), "{along:e} in {lower:e}..{upper:e}");
     ClosestFeatures {
         signed_distance,
         lower,
