@@ -2220,7 +2220,7 @@ class ClosestFeatures:
 
     @property
     def rung(self) -> str:
-        """How far the query had to climb: "verified" (the cached vertices or their neighbours were the answer),
+        """How far the query had to climb: "verified" (the cached features or their neighbours were the answer),
         "walked" (from the cached features), "searched" or "double_double".
         """
 

@@ -75,7 +75,7 @@ pub enum Accuracy {
 /// How far a query had to climb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
-    /// The cached vertices still were the answer, or up to three others that the looks around came upon.
+    /// The cached features or vertices still were the answer, or up to three others that the looks around came upon.
     Verified,
     /// The walk from the cached features.
     Walked,

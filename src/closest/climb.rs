@@ -1,4 +1,4 @@
-//! Two convex pieces: the rungs of a query, from the cached vertices to double-double.
+//! Two convex pieces: the rungs of a query, from the cached features to double-double.
 
 use super::answer::{Accuracy, ClosestFeatures, Rung, State};
 use super::cache::{Packed, PairCache};

@@ -20,7 +20,7 @@
 //!
 //! | rung | what is tried |
 //! |---|---|
-//! | [`Rung::Verified`] | the vertices of the last answer, checked by one look around; apart, up to three are exchanged for what the looks come upon |
+//! | [`Rung::Verified`] | the features of the last answer, each point still in the other's region; else its vertices, checked by one look around; apart, up to three are exchanged for what the looks come upon |
 //! | [`Rung::Walked`] | the Lin–Canny walk from the last features, checked the same way |
 //! | [`Rung::Searched`] | search in `f64`: distance by GJK, depth by a growing polytope, supports by climbing |
 //! | [`Rung::DoubleDouble`] | the same in double-double |

@@ -140,7 +140,7 @@ impl PyClosestFeatures {
         self.0.steps
     }
 
-    /// How far the query had to climb: "verified" (the cached vertices or their neighbours were the answer),
+    /// How far the query had to climb: "verified" (the cached features or their neighbours were the answer),
     /// "walked" (from the cached features), "searched" or "double_double".
     #[getter]
     fn rung(&self) -> &'static str {
