@@ -67,6 +67,9 @@ pub const CERTIFICATE_SLACK: f64 = 2.0 * f64::EPSILON;
 /// promise, are said not to.
 pub const CERTIFICATE_WIDTH: f64 = 16.0 * f64::EPSILON;
 
+/// The same where a body is curved, whose heights and points are rounded more [-].
+pub const CERTIFICATE_WIDTH_CURVED: f64 = 23.0 * f64::EPSILON;
+
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the
 /// pair's size [-]. Larger: earlier stops, wider intervals. Smaller: the search runs into rounding.
 pub const SEARCH_GAP: f64 = 2.0 * f64::EPSILON;

@@ -16,7 +16,7 @@ use super::walk;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Vector3};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
-use crate::tolerance::{CERTIFICATE_SLACK, CERTIFICATE_WIDTH, SEARCH_GAP};
+use crate::tolerance::{CERTIFICATE_SLACK, SEARCH_GAP};
 
 /// Gap at which a search in double-double stops that runs over curved bodies, as a fraction of the
 /// pair's size [-]. Its points close in on the closest one without ever reaching it; this is a quarter
@@ -297,7 +297,7 @@ fn describe<R: Real>(
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
     let floor = 2.0 * bound + CERTIFICATE_SLACK * pair.size();
     // what a rung could do better leads to the next; the last is held to what is promised
-    let floor = if rung == Rung::DoubleDouble { floor.max(CERTIFICATE_WIDTH * pair.size()) } else { floor };
+    let floor = if rung == Rung::DoubleDouble { floor.max(pair.promise()) } else { floor };
     let certified = is_certified(lower, upper, accuracy, floor, pair.size());
 
     // both points, joined by the same vector that the distance is taken from

@@ -39,6 +39,7 @@ use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Quaternion, Vector3};
 use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, others_reach, top_of};
+use crate::tolerance::CERTIFICATE_WIDTH;
 
 /// A vertex of each body.
 pub(super) type Ids = [u32; 2];
@@ -78,6 +79,11 @@ pub(super) trait Difference<R: Real> {
 
     /// Bound of the rounding error of a height or a length near `distance` [m].
     fn error(&self, distance: f64) -> f64;
+
+    /// Width of an interval that is promised of the last rung [m].
+    fn promise(&self) -> f64 {
+        CERTIFICATE_WIDTH * self.size()
+    }
 
     /// Up to how many points an inner polytope is grown.
     fn most_points(&self) -> usize;

@@ -14,6 +14,7 @@ use super::rotation::{rotate, rotate_back};
 use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
+use crate::tolerance::CERTIFICATE_WIDTH_CURVED;
 
 /// What a curved body's height and point cost beyond a polyhedron's, in units `u` times the radii [-]: its
 /// height is right to 5 in place of 3, its point to 4 in place of 0.
@@ -166,6 +167,10 @@ impl<R: Heights> Difference<R> for RoundPair<'_, R> {
 
     fn error(&self, distance: f64) -> f64 {
         self.error + error_of_distance::<R>(distance)
+    }
+
+    fn promise(&self) -> f64 {
+        CERTIFICATE_WIDTH_CURVED * self.size
     }
 
     fn most_points(&self) -> usize {
