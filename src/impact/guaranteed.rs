@@ -36,6 +36,7 @@
 //! largest distance from the moving point.
 
 use super::motion::{Instant, MotionBounds, Moving};
+use super::sweep::{Swept, parting};
 use super::{Found, Outcome};
 use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, Piece};
 use crate::error::Result;
@@ -53,41 +54,16 @@ struct Side<'a> {
     is_plane: bool,
     /// Where the last climb ended.
     vertex: u32,
+    /// Its corners from the moving point, shape axes [m]; none of a curved body, or before they are asked for.
+    corners: Option<Vec<Vector3>>,
     /// What a steady spin sweeps.
     swept: Option<Swept>,
 }
 
-/// The solid of revolution that a body fills when it spins: for each vertex how far along the axis and
-/// how far from it [m].
-struct Swept {
-    spin: Vector3,
-    axis: Vector3,
-    profile: Vec<[f64; 2]>,
-}
-
-impl Swept {
-    fn new(side: &Side<'_>, corners: &[Vector3], placed: &Placed) -> Self {
-        let spin = placed.instant.angular_velocity;
-        let axis = spin / spin.norm();
-        let axis_body = placed.rotation.tr_mul(&axis);
-        let along_and_from = |v: &Vector3| {
-            let v = v + side.offset;
-            [v.dot(&axis_body), v.cross(&axis_body).norm()]
-        };
-        Self { spin, axis, profile: corners.iter().map(along_and_from).collect() }
-    }
-
-    /// Its support along `d` [m].
-    fn height(&self, d: &Vector3) -> f64 {
-        let (along, from) = (d.dot(&self.axis), d.cross(&self.axis).norm());
-        self.profile.iter().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
-    }
-}
-
 /// A body at an instant.
-struct Placed {
-    instant: Instant,
-    rotation: Matrix3,
+pub(super) struct Placed {
+    pub(super) instant: Instant,
+    pub(super) rotation: Matrix3,
 }
 
 impl<'a> Side<'a> {
@@ -95,7 +71,7 @@ impl<'a> Side<'a> {
         let offset = piece.center - motion.center();
         let is_plane = piece.plane().is_some();
         let radius = if is_plane { 0.0 } else { offset.norm() + piece.reach - piece.rounding() };
-        Self { piece, motion, offset, radius, is_plane, vertex: 0, swept: None }
+        Self { piece, motion, offset, radius, is_plane, vertex: 0, corners: None, swept: None }
     }
 
     fn at(&self, t: f64) -> Placed {
@@ -110,27 +86,75 @@ impl<'a> Side<'a> {
         d.dot(&self.offset) + about_center
     }
 
+    /// Works out the corners; whether there are any.
+    fn has_corners(&mut self) -> bool {
+        if self.corners.is_none() {
+            let mut corners = self.piece.corners();
+            corners.iter_mut().flatten().for_each(|v| *v += self.offset);
+            self.corners = corners;
+        }
+        self.corners.is_some()
+    }
+
+    /// What the spin at this instant sweeps; none of a curved body.
+    fn swept(&mut self, placed: &Placed) -> Option<&Swept> {
+        let spin = placed.instant.angular_velocity;
+        if self.swept.as_ref().is_none_or(|swept| swept.spin != spin) && self.has_corners() {
+            self.swept = self.corners.as_ref().map(|corners| Swept::new(corners, placed));
+        }
+        self.swept.as_ref()
+    }
+
+    /// The point farthest along `d`, from the moving point [m]: of half of what is swept, or of the body itself.
+    fn farthest(&self, placed: &Placed, half: Option<usize>, d: &Vector3) -> Vector3 {
+        if let (Some(half), Some(swept)) = (half, &self.swept) {
+            return swept.farthest(half, d);
+        }
+        let d = placed.rotation.tr_mul(d);
+        let mut top = (f64::NEG_INFINITY, Vector3::zeros());
+        for v in self.corners.iter().flatten() {
+            let height = d.dot(v);
+            if height > top.0 {
+                top = (height, *v);
+            }
+        }
+        placed.rotation * top.1
+    }
+
     /// Direction of an edge, world axes.
     fn edge(&self, placed: &Placed, edge: u32) -> Vector3 {
         self.piece.edge(edge).map_or_else(Vector3::zeros, |e| placed.rotation * e)
     }
 }
 
-/// The pair at an instant, and what the bounds are worked out from.
-struct Look {
+/// The pair at an instant.
+struct Stand {
     time: f64,
-    closest: ClosestFeatures,
     a: Placed,
     b: Placed,
     /// From the moving point of A to that of B [m], and its rate [m/s].
     between: Vector3,
     approach: Vector3,
-    /// Supports of both along the normal [m].
-    heights: [f64; 2],
     /// Rounding of a separation [m].
     error: f64,
     /// Largest speed of a point of one body as seen from the other [m/s].
     speed: f64,
+}
+
+/// A direction from A to B, and what it parts.
+struct Parting {
+    normal: Vector3,
+    /// Supports of both along it [m].
+    heights: [f64; 2],
+    /// Whether these are of all that is swept.
+    swept: [bool; 2],
+}
+
+/// The closest features at an instant, and what the bounds are worked out from.
+struct Look {
+    stand: Stand,
+    closest: ClosestFeatures,
+    parting: Parting,
     /// How fast the closest points approach along the normal [m/s].
     closing: f64,
 }
@@ -152,6 +176,9 @@ pub(super) struct Search<'a> {
     b: Side<'a>,
     cache: &'a mut PairCache,
     queries: u32,
+    /// Where the search began [s], and how far from the origin the moving points were then, together [m].
+    from: f64,
+    start: f64,
 }
 
 impl<'a> Search<'a> {
@@ -160,14 +187,21 @@ impl<'a> Search<'a> {
         b: (Piece<'a>, &'a dyn Moving),
         cache: &'a mut PairCache,
     ) -> Self {
-        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0 }
+        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0, from: 0.0, start: 0.0 }
     }
 
     /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
     pub(super) fn run(&mut self, from: f64, to: f64, eps: f64) -> Result<Found> {
-        let mut look = self.look(from)?;
-        let start = [look.a.instant.center.norm(), look.b.instant.center.norm()];
-        let mut eps_here = eps.max(self.rounding(&look, start, from));
+        let stand = self.stand(from);
+        self.from = from;
+        self.start = stand.a.instant.center.norm() + stand.b.instant.center.norm();
+        let mut sweeps = Sweeps::new(self, from, to);
+        let begin = self.sweep(&mut sweeps, from, to, eps);
+        if begin >= to {
+            return Ok(self.found(Outcome::Clear, to, 0));
+        }
+        let mut look = if begin > from { self.look(begin)? } else { self.look_at(stand)? };
+        let mut eps_here = eps.max(self.rounding(&look.stand));
         let gap = look.closest.signed_distance;
         let mut phase = if gap > eps_here {
             Phase::Free
@@ -175,13 +209,13 @@ impl<'a> Search<'a> {
             return Ok(self.found(Outcome::Overlap, from, 0));
         } else {
             // it may sink by what rounding hides, else not even the opening of the gap could be proved
-            Phase::Leaving((0.5 * look.closest.lower).min(gap - LEAST_SINK * look.error))
+            Phase::Leaving((0.5 * look.closest.lower).min(gap - LEAST_SINK * look.stand.error))
         };
         let mut stays = 0;
 
         for round in 0..ROUNDS {
             let gap = look.closest.signed_distance;
-            let t = look.time;
+            let t = look.stand.time;
             match phase {
                 Phase::Free if gap <= eps_here => {
                     if look.closest.lower <= 0.0 {
@@ -238,47 +272,61 @@ impl<'a> Search<'a> {
             if next <= t {
                 return Ok(self.found(Outcome::Stalled, t, round));
             }
+            let next = if matches!(phase, Phase::Free) { self.sweep(&mut sweeps, next, to, eps) } else { next };
+            if next >= to {
+                return Ok(self.found(Outcome::Clear, to, round));
+            }
             look = self.look(next)?;
-            eps_here = eps.max(self.rounding(&look, start, from));
+            eps_here = eps.max(self.rounding(&look.stand));
         }
-        Ok(self.found(Outcome::Stalled, look.time, ROUNDS))
+        Ok(self.found(Outcome::Stalled, look.stand.time, ROUNDS))
     }
 
     fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
         Found { outcome, time, until: time, iterations, queries: self.queries }
     }
 
-    /// The closest features at `t`, and what the bounds need.
-    fn look(&mut self, t: f64) -> Result<Look> {
+    /// The pair at `t`.
+    fn stand(&self, t: f64) -> Stand {
         let (a, b) = (self.a.at(t), self.b.at(t));
-        let (pose_a, pose_b) = (&a.instant.pose, &b.instant.pose);
-        let closest = self.a.piece.closest(pose_a, &self.b.piece, pose_b, self.cache, Accuracy::Exact)?;
-        self.queries += 1;
-        let n = closest.normal;
-        let heights = [self.a.height(&a, &n), self.b.height(&b, &-n)];
         let between = b.instant.center - a.instant.center;
         let approach = b.instant.velocity - a.instant.velocity;
         let speed = approach.norm()
             + a.instant.angular_velocity.norm() * self.a.radius
             + b.instant.angular_velocity.norm() * self.b.radius;
-        let closing = n.dot(&(a.instant.velocity_at(&closest.point_a) - b.instant.velocity_at(&closest.point_b)));
         let error = SUPPORT_UNITS * f64::EPSILON * (between.norm() + self.a.radius + self.b.radius);
-        Ok(Look { time: t, closest, a, b, between, approach, heights, error, speed, closing })
+        Stand { time: t, a, b, between, approach, error, speed }
     }
 
-    /// Gap below which rounding decides at the time of a look [m].
-    fn rounding(&self, look: &Look, start: [f64; 2], from: f64) -> f64 {
-        let (a, b) = (&look.a.instant, &look.b.instant);
-        let turned = (look.time - from)
+    /// The closest features at `t`, and what the bounds need.
+    fn look(&mut self, t: f64) -> Result<Look> {
+        let stand = self.stand(t);
+        self.look_at(stand)
+    }
+
+    fn look_at(&mut self, stand: Stand) -> Result<Look> {
+        let (a, b) = (&stand.a.instant, &stand.b.instant);
+        let closest = self.a.piece.closest(&a.pose, &self.b.piece, &b.pose, self.cache, Accuracy::Exact)?;
+        self.queries += 1;
+        let normal = closest.normal;
+        let heights = [self.a.height(&stand.a, &normal), self.b.height(&stand.b, &-normal)];
+        let closing = normal.dot(&(a.velocity_at(&closest.point_a) - b.velocity_at(&closest.point_b)));
+        Ok(Look { stand, closest, parting: Parting { normal, heights, swept: [false; 2] }, closing })
+    }
+
+    /// Gap below which rounding decides [m].
+    fn rounding(&self, stand: &Stand) -> f64 {
+        let (a, b) = (&stand.a.instant, &stand.b.instant);
+        let turned = (stand.time - self.from)
             * (a.angular_velocity.norm() * self.a.radius + b.angular_velocity.norm() * self.b.radius);
-        let near = look.between.norm() + self.a.radius + self.b.radius;
-        let far = a.center.norm() + b.center.norm() + start[0] + start[1];
+        let near = stand.between.norm() + self.a.radius + self.b.radius;
+        let far = a.center.norm() + b.center.norm() + self.start;
         f64::EPSILON * (NEAR_UNITS * near + FAR_UNITS * (far + turned))
     }
 
     /// Whether a proved step is longer than what comes with speed would take for this way [m].
     fn is_still(look: &Look, step: f64, left: f64, way: f64) -> bool {
-        step >= left || step * look.speed >= way
+        step >= left || step * look.stand.speed >= way
     }
 
     /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
@@ -292,7 +340,7 @@ impl<'a> Search<'a> {
         for turning in self.turnings(look).into_iter().flatten() {
             let mut h = proposed;
             for _ in 0..trials {
-                let proved = self.proved(look, &turning, level, h);
+                let proved = self.proved(&look.stand, &look.parting, &turning, level, h);
                 best = best.max(proved);
                 if proved >= NEARLY * h {
                     break;
@@ -309,7 +357,7 @@ impl<'a> Search<'a> {
     /// The angular velocities that the direction may turn with.
     fn turnings(&self, look: &Look) -> [Option<Vector3>; 2] {
         let n = &look.closest.normal;
-        let (w_a, w_b) = (look.a.instant.angular_velocity, look.b.instant.angular_velocity);
+        let (w_a, w_b) = (look.stand.a.instant.angular_velocity, look.stand.b.instant.angular_velocity);
         let zero = Vector3::zeros();
 
         // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
@@ -321,17 +369,17 @@ impl<'a> Search<'a> {
             (Feature::Face(_), _) => w_a,
             (_, Feature::Face(_)) => w_b,
             (Feature::Edge(i), Feature::Edge(j)) => {
-                let (e, f) = (self.a.edge(&look.a, i), self.b.edge(&look.b, j));
+                let (e, f) = (self.a.edge(&look.stand.a, i), self.b.edge(&look.stand.b, j));
                 let (p, q) = (along(&e, &w_a), along(&f, &w_b));
                 let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
                 n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
             }
             (Feature::Edge(i), Feature::Vertex(_)) => {
-                let e = self.a.edge(&look.a, i);
+                let e = self.a.edge(&look.stand.a, i);
                 n.cross(&(along(&e, &w_a) * e))
             }
             (Feature::Vertex(_), Feature::Edge(j)) => {
-                let f = self.b.edge(&look.b, j);
+                let f = self.b.edge(&look.stand.b, j);
                 n.cross(&(along(&f, &w_b) * f))
             }
             _ => zero,
@@ -343,9 +391,9 @@ impl<'a> Search<'a> {
     }
 
     /// How long from a look on, at most `h` [s], the bound with this Ω stays above `level` [m].
-    fn proved(&mut self, look: &Look, turning: &Vector3, level: f64, h: f64) -> f64 {
-        let n = &look.closest.normal;
-        let (t, to) = (look.time, look.time + h);
+    fn proved(&mut self, stand: &Stand, parting: &Parting, turning: &Vector3, level: f64, h: f64) -> f64 {
+        let n = &parting.normal;
+        let (t, to) = (stand.time, stand.time + h);
         let [bounds_a, bounds_b] = [self.a.motion.bounds(t, to), self.b.motion.bounds(t, to)];
 
         // the moving points
@@ -353,25 +401,152 @@ impl<'a> Search<'a> {
         let (size, deviation) = (acceleration.norm(), bounds_a.deviation + bounds_b.deviation);
         let rate = turning.cross(n);
         let (turning_size, rate_size) = (turning.norm(), rate.norm());
-        let fastest = look.approach.norm() + h * (size + deviation);
-        let farthest = look.between.norm() + h * fastest;
-        let mut start = n.dot(&look.between) - self.a.piece.rounding() - self.b.piece.rounding();
-        let mut end = start + h * (rate.dot(&look.between) + n.dot(&look.approach));
+        let fastest = stand.approach.norm() + h * (size + deviation);
+        let farthest = stand.between.norm() + h * fastest;
+        let mut start = n.dot(&stand.between) - self.a.piece.rounding() - self.b.piece.rounding();
+        let mut end = start + h * (rate.dot(&stand.between) + n.dot(&stand.approach));
         let mut bend =
             rate_size * (turning_size * farthest + 2.0 * fastest + h * size) + deviation - n.dot(&acceleration);
 
         // each body's part
         let resting = turning_size == 0.0;
-        for (side, placed, bounds, height, sign) in [
-            (&mut self.a, &look.a, &bounds_a, look.heights[0], 1.0),
-            (&mut self.b, &look.b, &bounds_b, look.heights[1], -1.0),
-        ] {
-            let part = side.part(placed, bounds, &(sign * n), height, turning, resting, h);
+        for (side, placed, bounds, k, sign) in
+            [(&mut self.a, &stand.a, &bounds_a, 0, 1.0), (&mut self.b, &stand.b, &bounds_b, 1, -1.0)]
+        {
+            let height = parting.heights[k];
+            let part = if parting.swept[k] {
+                Part { start: height, end: height, bend: 0.0 }
+            } else {
+                side.part(placed, bounds, &(sign * n), height, turning, resting, h)
+            };
             start -= part.start;
             end -= part.end;
             bend += part.bend;
         }
-        crossing(start - look.error - level, (end - start) / h, bend).min(h)
+        crossing(start - stand.error - level, (end - start) / h, bend).min(h)
+    }
+}
+
+/// When and how to look ahead by what the bodies sweep.
+struct Sweeps {
+    /// Not before this time [s].
+    after: f64,
+    /// The direction that parted each pair of halves last.
+    directions: [Option<Vector3>; 4],
+    rounds: u32,
+}
+
+impl Sweeps {
+    fn new(search: &Search<'_>, from: f64, to: f64) -> Self {
+        let is_steady = |side: &Side<'_>| {
+            let bounds = side.motion.bounds(from, to);
+            bounds.angular_acceleration == 0.0 && (to - from) * bounds.angular_speed >= TURN
+        };
+        let after = if is_steady(&search.a) || is_steady(&search.b) { from } else { f64::INFINITY };
+        Self { after, directions: [None; 4], rounds: 0 }
+    }
+}
+
+impl Search<'_> {
+    /// The time up to which what the bodies sweep from `t` on is apart, `to` at most [s].
+    fn sweep(&mut self, sweeps: &mut Sweeps, t: f64, to: f64, eps: f64) -> f64 {
+        let mut t = t;
+        while t >= sweeps.after {
+            let stand = self.stand(t);
+            let [w_a, w_b] = [&stand.a, &stand.b].map(|placed| placed.instant.angular_velocity.norm());
+            let fastest = w_a.max(w_b);
+            if fastest * (to - t) < TURN {
+                sweeps.after = f64::INFINITY;
+                break;
+            }
+
+            // the slower body stands where it is, unless it is nearly as fast
+            let swept = [w_a, w_b].map(|w| w >= ALSO * fastest);
+            let is_steady = |side: &Side<'_>| side.motion.bounds(t, to).angular_acceleration == 0.0;
+            if !((!swept[0] || is_steady(&self.a)) && (!swept[1] || is_steady(&self.b))) {
+                break;
+            }
+            let level = 0.5 * eps.max(self.rounding(&stand));
+            let step = self.swept_step(sweeps, &stand, swept, level, to - t);
+            sweeps.rounds += 1;
+            if step >= to - t {
+                return to;
+            }
+            t += step;
+            if step * fastest < SWEEPS {
+                sweeps.after = t + PAUSE / fastest;
+            }
+        }
+        t
+    }
+
+    fn swept_step(&mut self, sweeps: &mut Sweeps, stand: &Stand, swept: [bool; 2], level: f64, left: f64) -> f64 {
+        let mut halves = [[None; 2]; 2];
+        let sides = [(&mut self.a, &stand.a, swept[0]), (&mut self.b, &stand.b, swept[1])];
+        for ((side, placed, swept), halves) in sides.into_iter().zip(&mut halves) {
+            if swept {
+                let Some(swept) = side.swept(placed) else { return 0.0 };
+                *halves = [0, 1].map(|half| swept.has(half).then_some(Some(half)));
+            } else if side.has_corners() {
+                halves[0] = Some(None);
+            } else {
+                return 0.0;
+            }
+        }
+
+        // every half is to stay apart from every half, by more than an approach takes for a rad
+        let fastest = stand.a.instant.angular_velocity.norm().max(stand.b.instant.angular_velocity.norm());
+        let least = stand.approach.norm() / fastest;
+        let mut step = left;
+        for (i, half_a) in halves[0].into_iter().enumerate().filter_map(|(i, half)| Some((i, half?))) {
+            for (j, half_b) in halves[1].into_iter().enumerate().filter_map(|(j, half)| Some((j, half?))) {
+                let direction = &mut sweeps.directions[2 * i + j];
+                let way = self.parted_step(direction, stand, [half_a, half_b], [least, level], left);
+                if way <= 0.0 {
+                    return 0.0;
+                }
+                step = step.min(way);
+            }
+        }
+        step
+    }
+
+    /// How long a half of what is swept, or a body where it stands, stays apart from another [s].
+    fn parted_step(
+        &mut self,
+        direction: &mut Option<Vector3>,
+        stand: &Stand,
+        halves: [Option<usize>; 2],
+        [least, level]: [f64; 2],
+        left: f64,
+    ) -> f64 {
+        let (a, b) = (&self.a, &self.b);
+        let points =
+            |n: &Vector3| (a.farthest(&stand.a, halves[0], n), stand.between + b.farthest(&stand.b, halves[1], &-n));
+        let first = direction.unwrap_or_else(|| {
+            let length = stand.between.norm();
+            if length > 0.0 { stand.between / length } else { Vector3::x() }
+        });
+        let found = parting(&first, least, &mut |n| {
+            let (p, q) = points(n);
+            q - p
+        });
+        let Some(n) = found else { return 0.0 };
+        *direction = found;
+        let (p, q) = points(&n);
+        let heights = [n.dot(&p), -n.dot(&(q - stand.between))];
+        let parting = Parting { normal: n, heights, swept: halves.map(|half| half.is_some()) };
+
+        let (mut best, mut h) = (0.0_f64, left);
+        for _ in 0..TRIALS {
+            let proved = self.proved(stand, &parting, &Vector3::zeros(), level, h);
+            best = best.max(proved);
+            if proved >= NEARLY * h {
+                break;
+            }
+            h = (2.0 * proved).max(h / 16.0);
+        }
+        best
     }
 }
 
@@ -413,7 +588,8 @@ impl Side<'_> {
         if resting && !self.is_plane {
             let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
             plain = height + h * fastest * r;
-            let all = self.swept(placed, bounds, d, h);
+            let is_steady = bounds.angular_acceleration == 0.0 && h * bounds.angular_speed >= SWEEPS;
+            let all = if is_steady { self.swept(placed).map_or(r, |swept| swept.height(d)) } else { r };
             if all <= plain && all <= height + 0.5 * bend * h * h {
                 return Part { start: all, end: all, bend: 0.0 };
             }
@@ -423,26 +599,6 @@ impl Side<'_> {
             return Part { start: height, end: plain, bend: 0.0 };
         }
         Part { start: height, end, bend }
-    }
-}
-
-impl Side<'_> {
-    /// Support along `d` of all that the body sweeps in the time `h` [s], however it turns.
-    fn swept(&mut self, placed: &Placed, bounds: &MotionBounds, d: &Vector3, h: f64) -> f64 {
-        let w = &placed.instant.angular_velocity;
-        if bounds.angular_acceleration > 0.0 || h * bounds.angular_speed < SWEEPS {
-            return self.radius;
-        }
-        let swept = match self.swept.take().filter(|swept| swept.spin == *w) {
-            Some(swept) => swept,
-            None => match self.piece.corners() {
-                Some(corners) => Swept::new(self, &corners, placed),
-                None => return self.radius,
-            },
-        };
-        let height = swept.height(d);
-        self.swept = Some(swept);
-        height
     }
 }
 
@@ -483,6 +639,12 @@ const NEAR_UNITS: f64 = 144.0;
 const FAR_UNITS: f64 = 8.0;
 /// Angle from which on a spin is taken for all that it sweeps [rad].
 const SWEEPS: f64 = 1.0;
+/// Angle left to turn from which on what is swept is looked at first [rad].
+const TURN: f64 = std::f64::consts::TAU;
+/// A body is taken for all that it sweeps where it spins with this part of the faster one's rate [-].
+const ALSO: f64 = 0.25;
+/// Angle for which sweeps are not tried again after one that led nowhere [rad].
+const PAUSE: f64 = std::f64::consts::PI;
 /// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
 const LEAST_STAY: f64 = 10.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].

@@ -17,6 +17,7 @@ mod ends;
 mod guaranteed;
 pub mod motion;
 mod secant;
+mod sweep;
 
 pub use ends::Found;
 pub use motion::{Instant, Motion, MotionBounds, Moving};
@@ -147,12 +148,13 @@ pub fn time_of_impact<'a, 'b>(
     }
     let (a, b) = ((a.into(), motion_a), (b.into(), motion_b));
     let eps = eps.unwrap_or(IMPACT_GAP * (a.0.size() + b.0.size()));
-    let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps)?;
-    let closest = between(a, b, time, &mut PairCache::new())?;
+    let mut cache = PairCache::new();
+    let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps, &mut cache)?;
+    let closest = between(a, b, time, &mut cache)?;
     Ok(Impact { outcome, time, iterations, queries, closest })
 }
 
-/// The search over `from..=to` [s] by any finder.
+/// The search over `from..=to` [s] by any finder; the cache is left with its last query.
 pub(crate) fn first_impact_by(
     finder: Finder,
     a: (Collidable<'_>, &dyn Moving),
@@ -160,13 +162,14 @@ pub(crate) fn first_impact_by(
     from: f64,
     to: f64,
     eps: f64,
+    cache: &mut PairCache,
 ) -> Result<Found> {
     if finder == Finder::Guaranteed {
-        return first_impact(a, b, from, to, eps);
+        return first_impact(a, b, from, to, eps, cache);
     }
     // the first pose that cannot be queried is remembered: the finders see numbers only
-    let (mut cache, mut refused) = (PairCache::new(), None);
-    let gap = |t: f64| match between(a, b, from + t, &mut cache) {
+    let mut refused = None;
+    let gap = |t: f64| match between(a, b, from + t, cache) {
         Ok(closest) => closest.signed_distance,
         Err(error) => {
             refused.get_or_insert(error);
@@ -187,12 +190,13 @@ pub(crate) fn first_impact(
     from: f64,
     to: f64,
     eps: f64,
+    cache: &mut PairCache,
 ) -> Result<Found> {
     let mut first = Found { outcome: Outcome::Clear, time: to, until: to, iterations: 0, queries: 0 };
     for i in 0..a.pieces() {
         for j in 0..b.pieces() {
-            let mut cache = PairCache::new();
-            let mut search = guaranteed::Search::new((a.piece(i), motion_a), (b.piece(j), motion_b), &mut cache);
+            *cache = PairCache::new();
+            let mut search = guaranteed::Search::new((a.piece(i), motion_a), (b.piece(j), motion_b), cache);
             let found = search.run(from, first.time, eps)?;
             first.iterations += found.iterations;
             first.queries += found.queries;
