@@ -99,7 +99,7 @@ impl<'a> Side<'a> {
     /// What the spin at this instant sweeps; none of a curved body.
     fn swept(&mut self, placed: &Placed) -> Option<&Swept> {
         let spin = placed.instant.angular_velocity;
-        if self.swept.as_ref().is_none_or(|swept| swept.spin != spin) && self.has_corners() {
+        if self.swept.as_ref().is_none_or(|swept| swept.spin != spin && swept.spin != -spin) && self.has_corners() {
             self.swept = self.corners.as_ref().map(|corners| Swept::new(corners, placed));
         }
         self.swept.as_ref()
@@ -139,6 +139,19 @@ struct Stand {
     error: f64,
     /// Largest speed of a point of one body as seen from the other [m/s].
     speed: f64,
+    /// Whether time runs backwards: all velocities have the other sign.
+    is_reversed: bool,
+}
+
+impl Stand {
+    /// The same with time running the other way.
+    fn reverse(&mut self) {
+        self.is_reversed = !self.is_reversed;
+        self.approach = -self.approach;
+        for instant in [&mut self.a.instant, &mut self.b.instant] {
+            (instant.velocity, instant.angular_velocity) = (-instant.velocity, -instant.angular_velocity);
+        }
+    }
 }
 
 /// A direction from A to B, and what it parts.
@@ -157,6 +170,21 @@ struct Look {
     parting: Parting,
     /// How fast the closest points approach along the normal [m/s].
     closing: f64,
+}
+
+impl Look {
+    fn features(&self) -> (Feature, Feature) {
+        (self.closest.feature_a, self.closest.feature_b)
+    }
+}
+
+/// The closest features of a look as they are at another time.
+struct Carried {
+    stand: Stand,
+    parting: Parting,
+    /// Separation of the two features [m], and of the bodies along the same direction [m], an error less.
+    gap: f64,
+    separation: f64,
 }
 
 /// What the search is about.
@@ -203,7 +231,7 @@ impl<'a> Search<'a> {
         let mut look = if begin > from { self.look(begin)? } else { self.look_at(stand)? };
         let mut eps_here = eps.max(self.rounding(&look.stand));
         let gap = look.closest.signed_distance;
-        let mut phase = if gap > eps_here {
+        let mut phase = if gap > eps_here || begin > from {
             Phase::Free
         } else if gap < -eps_here {
             return Ok(self.found(Outcome::Overlap, from, 0));
@@ -272,11 +300,22 @@ impl<'a> Search<'a> {
             if next <= t {
                 return Ok(self.found(Outcome::Stalled, t, round));
             }
-            let next = if matches!(phase, Phase::Free) { self.sweep(&mut sweeps, next, to, eps) } else { next };
-            if next >= to {
-                return Ok(self.found(Outcome::Clear, to, round));
-            }
-            look = self.look(next)?;
+            look = if matches!(phase, Phase::Free) {
+                if let Some(stand) = self.leap(&look, step, to - t, eps_here) {
+                    if stand.time >= to {
+                        return Ok(self.found(Outcome::Clear, to, round + 1));
+                    }
+                    self.look_at(stand)?
+                } else {
+                    let next = self.sweep(&mut sweeps, next, to, eps);
+                    if next >= to {
+                        return Ok(self.found(Outcome::Clear, to, round + 1));
+                    }
+                    self.look(next)?
+                }
+            } else {
+                self.look(next)?
+            };
             eps_here = eps.max(self.rounding(&look.stand));
         }
         Ok(self.found(Outcome::Stalled, look.stand.time, ROUNDS))
@@ -295,7 +334,7 @@ impl<'a> Search<'a> {
             + a.instant.angular_velocity.norm() * self.a.radius
             + b.instant.angular_velocity.norm() * self.b.radius;
         let error = SUPPORT_UNITS * f64::EPSILON * (between.norm() + self.a.radius + self.b.radius);
-        Stand { time: t, a, b, between, approach, error, speed }
+        Stand { time: t, a, b, between, approach, error, speed, is_reversed: false }
     }
 
     /// The closest features at `t`, and what the bounds need.
@@ -337,7 +376,7 @@ impl<'a> Search<'a> {
         let proposed = if proposed < left { proposed.max(0.0) } else { left };
 
         let mut best = 0.0_f64;
-        for turning in self.turnings(look).into_iter().flatten() {
+        for turning in self.turnings(&look.stand, look.features(), &look.parting.normal).into_iter().flatten() {
             let mut h = proposed;
             for _ in 0..trials {
                 let proved = self.proved(&look.stand, &look.parting, &turning, level, h);
@@ -354,10 +393,110 @@ impl<'a> Search<'a> {
         best
     }
 
+    /// A time beyond a proved `step`, `left` at most [s], up to which the way is free too: where the features of the
+    /// look, carried along, meet the level, or as far again as the step. It is proved from there backwards.
+    fn leap(&mut self, look: &Look, step: f64, left: f64, eps: f64) -> Option<Stand> {
+        let level = 0.5 * eps;
+        let way = look.closest.signed_distance - AIM * eps;
+        let line = if look.closing > 0.0 { way / look.closing } else { f64::INFINITY };
+        let far = line.min(LEAP * step).min(left);
+        if far < LEAST_LEAP * step {
+            return None;
+        }
+        let mut there = self.carried(look, far)?;
+
+        // the features meet if they stay the closest
+        if far == line && (there.gap - there.separation).abs() <= 2.0 * there.stand.error {
+            there = self.carried_root(look, far, there, AIM * eps, 0.25 * eps, left)?;
+        }
+        if there.separation <= level || there.gap < 0.0 {
+            return None;
+        }
+
+        // what the step leaves
+        let rest = there.stand.time - look.stand.time - step;
+        let n = there.parting.normal;
+        there.stand.reverse();
+        let turnings = self.turnings(&there.stand, look.features(), &n);
+        let is_free = rest <= 0.0
+            || turnings.into_iter().flatten().any(|turning| {
+                self.proved(&there.stand, &there.parting, &turning, level, rest) >= rest
+            });
+        there.stand.reverse();
+        is_free.then_some(there.stand)
+    }
+
+    /// The features of a look at the time `ahead` after it [s]; none where they have no direction.
+    fn carried(&mut self, look: &Look, ahead: f64) -> Option<Carried> {
+        let (old, new) = (&look.stand, self.stand(look.stand.time + ahead));
+        let turned_a = |v: &Vector3| new.a.rotation * old.a.rotation.tr_mul(v);
+        let turned_b = |v: &Vector3| new.b.rotation * old.b.rotation.tr_mul(v);
+        let (n, radii) = (&look.parting.normal, [self.a.piece.rounding(), self.b.piece.rounding()]);
+        let p = turned_a(&(look.closest.point_a - radii[0] * n - old.a.instant.center));
+        let q = turned_b(&(look.closest.point_b + radii[1] * n - old.b.instant.center));
+        let between = new.between + q - p;
+
+        let across = |e: &Vector3| between - (between.dot(e) / e.norm_squared()) * e;
+        let normal = match look.features() {
+            (Feature::Face(_), _) => turned_a(n),
+            (_, Feature::Face(_)) => turned_b(n),
+            (Feature::Edge(i), Feature::Edge(j)) => {
+                let across_old = self.a.edge(&old.a, i).cross(&self.b.edge(&old.b, j));
+                let across_new = self.a.edge(&new.a, i).cross(&self.b.edge(&new.b, j));
+                across_new * across_old.dot(n).signum()
+            }
+            (Feature::Edge(i), Feature::Vertex(_)) => across(&self.a.edge(&new.a, i)),
+            (Feature::Vertex(_), Feature::Edge(j)) => across(&self.b.edge(&new.b, j)),
+            (Feature::Vertex(_), Feature::Vertex(_)) => between,
+            _ => return None,
+        };
+        let length = normal.norm();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let normal = normal / length;
+        let rounding = radii[0] + radii[1];
+        let heights = [self.a.height(&new.a, &normal), self.b.height(&new.b, &-normal)];
+        let separation = normal.dot(&new.between) - heights[0] - heights[1] - rounding - new.error;
+        let gap = normal.dot(&between) - rounding;
+        Some(Carried { stand: new, parting: Parting { normal, heights, swept: [false; 2] }, gap, separation })
+    }
+
+    /// The features of a look where their gap is `aim`, but for `off` [m], by the secant; `first` is a guess.
+    fn carried_root(
+        &mut self,
+        look: &Look,
+        guess: f64,
+        first: Carried,
+        aim: f64,
+        off: f64,
+        left: f64,
+    ) -> Option<Carried> {
+        let (mut last, mut time, mut there) = ((0.0, look.closest.signed_distance), guess, first);
+
+        // the first correction knows the rate at the look
+        let (way, closing) = (last.1 - aim, look.closing);
+        let bend = (there.gap - last.1 + closing * time) / (time * time);
+        let root = closing * closing - 4.0 * bend * way;
+        let mut next = if root >= 0.0 { 2.0 * way / (closing + root.sqrt()) } else { return None };
+        for _ in 0..ROOT {
+            if (there.gap - aim).abs() <= off {
+                return Some(there);
+            }
+            if !(next > 0.0 && next < left) {
+                return None;
+            }
+            last = (time, there.gap);
+            time = next;
+            there = self.carried(look, time)?;
+            next = time - (there.gap - aim) * (time - last.0) / (there.gap - last.1);
+        }
+        None
+    }
+
     /// The angular velocities that the direction may turn with.
-    fn turnings(&self, look: &Look) -> [Option<Vector3>; 2] {
-        let n = &look.closest.normal;
-        let (w_a, w_b) = (look.stand.a.instant.angular_velocity, look.stand.b.instant.angular_velocity);
+    fn turnings(&self, stand: &Stand, features: (Feature, Feature), n: &Vector3) -> [Option<Vector3>; 2] {
+        let (w_a, w_b) = (stand.a.instant.angular_velocity, stand.b.instant.angular_velocity);
         let zero = Vector3::zeros();
 
         // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
@@ -365,21 +504,21 @@ impl<'a> Search<'a> {
         if self.a.is_plane || self.b.is_plane {
             return [Some(if self.a.is_plane { w_a } else { w_b }), None];
         }
-        let natural = match (look.closest.feature_a, look.closest.feature_b) {
+        let natural = match features {
             (Feature::Face(_), _) => w_a,
             (_, Feature::Face(_)) => w_b,
             (Feature::Edge(i), Feature::Edge(j)) => {
-                let (e, f) = (self.a.edge(&look.stand.a, i), self.b.edge(&look.stand.b, j));
+                let (e, f) = (self.a.edge(&stand.a, i), self.b.edge(&stand.b, j));
                 let (p, q) = (along(&e, &w_a), along(&f, &w_b));
                 let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
                 n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
             }
             (Feature::Edge(i), Feature::Vertex(_)) => {
-                let e = self.a.edge(&look.stand.a, i);
+                let e = self.a.edge(&stand.a, i);
                 n.cross(&(along(&e, &w_a) * e))
             }
             (Feature::Vertex(_), Feature::Edge(j)) => {
-                let f = self.b.edge(&look.stand.b, j);
+                let f = self.b.edge(&stand.b, j);
                 n.cross(&(along(&f, &w_b) * f))
             }
             _ => zero,
@@ -393,8 +532,9 @@ impl<'a> Search<'a> {
     /// How long from a look on, at most `h` [s], the bound with this Ω stays above `level` [m].
     fn proved(&mut self, stand: &Stand, parting: &Parting, turning: &Vector3, level: f64, h: f64) -> f64 {
         let n = &parting.normal;
-        let (t, to) = (stand.time, stand.time + h);
-        let [bounds_a, bounds_b] = [self.a.motion.bounds(t, to), self.b.motion.bounds(t, to)];
+        let t = stand.time;
+        let (from, to) = if stand.is_reversed { (t - h, t) } else { (t, t + h) };
+        let [bounds_a, bounds_b] = [self.a.motion.bounds(from, to), self.b.motion.bounds(from, to)];
 
         // the moving points
         let acceleration = bounds_b.acceleration - bounds_a.acceleration;
@@ -639,6 +779,14 @@ const NEAR_UNITS: f64 = 144.0;
 const FAR_UNITS: f64 = 8.0;
 /// Angle from which on a spin is taken for all that it sweeps [rad].
 const SWEEPS: f64 = 1.0;
+/// The gap that is aimed at, in ε [-]: between the level that is proved and what counts as contact.
+const AIM: f64 = 0.75;
+/// How far a leap reaches, in proved steps [-]: what bends the bound forwards does so backwards.
+const LEAP: f64 = 2.0;
+/// A leap that is shorter is not worth its while, in proved steps [-].
+const LEAST_LEAP: f64 = 1.0;
+/// Rounds of the secant for where features meet [-].
+const ROOT: u32 = 8;
 /// Angle left to turn from which on what is swept is looked at first [rad].
 const TURN: f64 = std::f64::consts::TAU;
 /// A body is taken for all that it sweeps where it spins with this part of the faster one's rate [-].
