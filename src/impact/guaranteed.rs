@@ -375,9 +375,13 @@ impl<'a> Search<'a> {
         let proposed = if look.closing > 0.0 { (look.closest.signed_distance - level) / look.closing } else { left };
         let proposed = if proposed < left { proposed.max(0.0) } else { left };
 
+        // the first look ahead: where the fall of a body that turns would meet the level
+        let fall = [(&self.a, &look.stand.a), (&self.b, &look.stand.b)]
+            .map(|(side, placed)| side.radius * placed.instant.angular_velocity.norm_squared());
+        let first = AHEAD * (look.closest.signed_distance / (fall[0] + fall[1])).sqrt();
         let mut best = 0.0_f64;
         for turning in self.turnings(&look.stand, look.features(), &look.parting.normal).into_iter().flatten() {
-            let mut h = proposed;
+            let mut h = if first < proposed { first } else { proposed };
             for _ in 0..trials {
                 let proved = self.proved(&look.stand, &look.parting, &turning, level, h);
                 best = best.max(proved);
@@ -573,7 +577,8 @@ struct Sweeps {
     after: f64,
     /// The direction that parted each pair of halves last.
     directions: [Option<Vector3>; 4],
-    rounds: u32,
+    /// The direction that parted a spinning body from what goes around it.
+    circled: Option<Vector3>,
 }
 
 impl Sweeps {
@@ -583,7 +588,7 @@ impl Sweeps {
             bounds.angular_acceleration == 0.0 && (to - from) * bounds.angular_speed >= TURN
         };
         let after = if is_steady(&search.a) || is_steady(&search.b) { from } else { f64::INFINITY };
-        Self { after, directions: [None; 4], rounds: 0 }
+        Self { after, directions: [None; 4], circled: None }
     }
 }
 
@@ -592,6 +597,10 @@ impl Search<'_> {
     fn sweep(&mut self, sweeps: &mut Sweeps, t: f64, to: f64, eps: f64) -> f64 {
         let mut t = t;
         while t >= sweeps.after {
+            if !(self.a.has_corners() && self.b.has_corners()) {
+                sweeps.after = f64::INFINITY;
+                break;
+            }
             let stand = self.stand(t);
             let [w_a, w_b] = [&stand.a, &stand.b].map(|placed| placed.instant.angular_velocity.norm());
             let fastest = w_a.max(w_b);
@@ -607,8 +616,10 @@ impl Search<'_> {
                 break;
             }
             let level = 0.5 * eps.max(self.rounding(&stand));
-            let step = self.swept_step(sweeps, &stand, swept, level, to - t);
-            sweeps.rounds += 1;
+            let mut step = self.swept_step(sweeps, &stand, swept, level, to - t);
+            if step * fastest < SWEEPS && step < to - t && swept != [true; 2] {
+                step = step.max(self.circled_step(sweeps, &stand, level, to - t));
+            }
             if step >= to - t {
                 return to;
             }
@@ -624,14 +635,10 @@ impl Search<'_> {
         let mut halves = [[None; 2]; 2];
         let sides = [(&mut self.a, &stand.a, swept[0]), (&mut self.b, &stand.b, swept[1])];
         for ((side, placed, swept), halves) in sides.into_iter().zip(&mut halves) {
-            if swept {
-                let Some(swept) = side.swept(placed) else { return 0.0 };
-                *halves = [0, 1].map(|half| swept.has(half).then_some(Some(half)));
-            } else if side.has_corners() {
-                halves[0] = Some(None);
-            } else {
-                return 0.0;
-            }
+            *halves = match if swept { side.swept(placed) } else { None } {
+                Some(swept) => [0, 1].map(|half| swept.has(half).then_some(Some(half))),
+                None => [Some(None), None],
+            };
         }
 
         // every half is to stay apart from every half, by more than an approach takes for a rad
@@ -649,6 +656,42 @@ impl Search<'_> {
             }
         }
         step
+    }
+
+    /// How long the body that spins faster stays apart from all that the other passes when, seen from it, it goes
+    /// around [s]: a direction that turns with the spinning body, for many turns of it.
+    fn circled_step(&mut self, sweeps: &mut Sweeps, stand: &Stand, level: f64, left: f64) -> f64 {
+        let (w_a, w_b) = (stand.a.instant.angular_velocity, stand.b.instant.angular_velocity);
+        let is_a = w_a.norm_squared() >= w_b.norm_squared();
+        let (side, placed, w, sign) = if is_a { (&self.a, &stand.a, w_a, 1.0) } else { (&self.b, &stand.b, w_b, -1.0) };
+        let (other, other_placed) = if is_a { (&self.b, &stand.b) } else { (&self.a, &stand.a) };
+        let (between, approach) = (sign * stand.between, sign * stand.approach);
+        let axis = w / w.norm();
+        let corners = other.corners.iter().flatten().map(|v| between + other_placed.rotation * v);
+        let circled = Swept::around(axis, corners);
+
+        // the direction is kept as it was seen from the axis
+        let first = sweeps.circled.unwrap_or_else(|| {
+            let length = between.norm();
+            if length > 0.0 { between / length } else { axis }
+        });
+        let mut lowest = |n: &Vector3| circled.farthest(0, &-n) - side.farthest(placed, None, n);
+        let least = approach.norm() / w.norm();
+        let found = parting(&first, least, &mut lowest);
+        sweeps.circled = found;
+        let Some(n) = found else { return 0.0 };
+
+        // whatever its phase, the other comes nearer no faster than this
+        let separation = n.dot(&lowest(&n)) - side.piece.rounding() - other.piece.rounding();
+        let along = n.dot(&axis);
+        let from_axis = |v: &Vector3| v.cross(&axis).norm();
+        let [bounds, other_bounds] =
+            [side, other].map(|side| side.motion.bounds(stand.time, stand.time + left));
+        let rate = along * approach.dot(&axis)
+            - from_axis(&n) * from_axis(&approach)
+            - other_bounds.angular_speed * other.radius;
+        let bend = (other_bounds.acceleration - bounds.acceleration).norm() + bounds.deviation + other_bounds.deviation;
+        crossing(separation - stand.error - level, rate, bend).min(left)
     }
 
     /// How long a half of what is swept, or a body where it stands, stays apart from another [s].
@@ -761,6 +804,8 @@ fn crossing(c: f64, b: f64, k: f64) -> f64 {
 
 /// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
 const ROUNDS: u32 = 100_000;
+/// Where a bound is tried first [-].
+const AHEAD: f64 = 2.0;
 /// How often a bound is tried with another look ahead [-].
 const TRIALS: u32 = 4;
 /// The same within ε [-]: what touches may leave in one point while another comes from nearby, and the
@@ -788,7 +833,7 @@ const LEAST_LEAP: f64 = 1.0;
 /// Rounds of the secant for where features meet [-].
 const ROOT: u32 = 8;
 /// Angle left to turn from which on what is swept is looked at first [rad].
-const TURN: f64 = std::f64::consts::TAU;
+const TURN: f64 = std::f64::consts::PI;
 /// A body is taken for all that it sweeps where it spins with this part of the faster one's rate [-].
 const ALSO: f64 = 0.25;
 /// Angle for which sweeps are not tried again after one that led nowhere [rad].

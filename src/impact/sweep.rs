@@ -39,6 +39,12 @@ impl Swept {
         Self { spin, axis, halves }
     }
 
+    /// What the hull of `points`, each from a point of the axis [m], sweeps when it goes around the axis.
+    pub(super) fn around(axis: Vector3, points: impl Iterator<Item = Vector3>) -> Self {
+        let whole = points.map(|p| [p.dot(&axis), p.cross(&axis).norm()]).collect();
+        Self { spin: axis, axis, halves: [whole, Vec::new()] }
+    }
+
     /// The halves, if the body is much thinner between than its ends would have it.
     fn cut(corners: &[Vector3], whole: &[[f64; 2]], axis: &Vector3) -> Option<[Vec<[f64; 2]>; 2]> {
         if corners.len() > FEW {
