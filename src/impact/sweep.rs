@@ -131,7 +131,7 @@ pub(super) fn parting(first: &Vector3, least: f64, lowest: &mut dyn FnMut(&Vecto
     let mut best = (first.dot(&mean), *first);
     for count in 1..POINTS {
         let length = mean.norm();
-        if length <= least {
+        if length <= least || count > 8 && best.0 <= 0.0 {
             return None;
         }
         if best.0 >= ENOUGH * length {
