@@ -827,7 +827,7 @@ const SWEEPS: f64 = 1.0;
 /// The gap that is aimed at, in ε [-]: between the level that is proved and what counts as contact.
 const AIM: f64 = 0.75;
 /// How far a leap reaches, in proved steps [-]: what bends the bound forwards does so backwards.
-const LEAP: f64 = 2.0;
+const LEAP: f64 = 1.6;
 /// A leap that is shorter is not worth its while, in proved steps [-].
 const LEAST_LEAP: f64 = 1.0;
 /// Rounds of the secant for where features meet [-].

@@ -31,11 +31,8 @@ impl Swept {
         let axis = spin / spin.norm();
         let axis_body = placed.rotation.tr_mul(&axis);
         let profile = |v: &Vector3| [v.dot(&axis_body), v.cross(&axis_body).norm()];
-        let mut whole: Vec<[f64; 2]> = corners.iter().map(profile).collect();
-        let halves = Self::cut(corners, &whole, &axis_body).unwrap_or_else(|| {
-            keep_farthest(&mut whole);
-            [whole, Vec::new()]
-        });
+        let whole: Vec<[f64; 2]> = corners.iter().map(profile).collect();
+        let halves = Self::cut(corners, &whole, &axis_body).unwrap_or_else(|| [whole, Vec::new()]);
         Self { spin, axis, halves }
     }
 
