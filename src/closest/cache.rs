@@ -1,5 +1,6 @@
 //! What a pair remembers from one query to the next.
 
+use super::Feature;
 use super::pair::Ids;
 use super::vector::Vec3;
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
@@ -18,6 +19,8 @@ pub struct PairCache {
 enum Memory {
     #[default]
     Nothing,
+    /// Features of two polyhedra apart, and the vertices that carried their closest points.
+    Apart { features: [Feature; 2], pairs: [[u16; 2]; 3], count: u8 },
     /// Vertices of two polyhedra; of an overlap those that enclose it.
     Vertices { pairs: [[u16; 2]; PairCache::CAPACITY], count: u8 },
     /// What encloses an overlap, with its triangles.
@@ -106,6 +109,9 @@ impl PairCache {
             }
         };
         match &self.memory {
+            Memory::Apart { pairs, count: stored, .. } => {
+                pairs.iter().take(usize::from(*stored)).for_each(|pair| take(pair.map(u32::from)));
+            }
             Memory::Vertices { pairs, count: stored } => {
                 pairs.iter().take(usize::from(*stored)).for_each(|pair| take(pair.map(u32::from)));
             }
@@ -126,6 +132,25 @@ impl PairCache {
     /// Remembers a surface.
     pub(super) fn store_surface(&mut self, packed: Packed) {
         self.memory = Memory::Surface(packed);
+    }
+
+    /// The remembered features of bodies that were apart.
+    #[inline]
+    pub(super) fn features(&self) -> Option<[Feature; 2]> {
+        if let Memory::Apart { features, .. } = self.memory { Some(features) } else { None }
+    }
+
+    /// Remembers the features of bodies apart, and the up to three pairs of vertices that carry the points.
+    #[inline]
+    pub(super) fn store_apart(&mut self, ids: &[Ids], features: [Feature; 2]) {
+        let mut pairs = [[0; 2]; 3];
+        let mut count = 0;
+        for ids in ids.iter().take(3) {
+            let [Ok(i), Ok(j)] = ids.map(u16::try_from) else { continue };
+            pairs[usize::from(count)] = [i, j];
+            count += 1;
+        }
+        self.memory = Memory::Apart { features, pairs, count };
     }
 
     /// Remembers pairs, no two of which are alike; vertices beyond number 65,535 are not remembered.

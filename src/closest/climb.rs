@@ -6,6 +6,7 @@ use super::collider::{Core, View};
 use super::depth::{self, Enclosing};
 use super::meridian;
 use super::pair::{Difference, Ids, Pair, feature};
+use super::region::{self, Joined};
 use super::round_pair::RoundPair;
 use super::search::{self, Bounds, Found};
 use super::simplex::Simplex;
@@ -37,21 +38,30 @@ pub(super) fn polyhedra(
     let (views, center) = ([view_a, view_b], at_a.point(a.center()));
     let rounding = view_a.rounding + view_b.rounding;
     let pair = Pair::new(a, &at_a, b, &at_b);
+    // the features of the last answer, each point still in the other's region
+    let last = cache.as_ref().and_then(|c| c.features());
+    if let Some(found) = last.and_then(|features| region::joined(&pair, features)) {
+        let answer = describe(&pair, &found, views, &center, accuracy, 1, Rung::Verified);
+        if answer.certified {
+            return answer;
+        }
+    }
+
+    // its vertices, where the bodies were apart
     let mut start = [[0; 2]; PairCache::CAPACITY];
     let count = cache.as_ref().map_or(0, |c| c.load(a, b, &mut start));
     let start = &start[..count];
     let mut steps = 0;
-
-    // the vertices of the last answer, where the bodies were apart
     let was_apart = (1..=3).contains(&count);
     if was_apart {
         let gap = gap_of(accuracy, SEARCH_GAP) * pair.size;
         let mut found = Bounds::unknown(pair.simplex(start));
         if search::verify(&pair, &mut found, gap, &mut steps) {
-            let answer = describe(&pair, &found, views, &center, accuracy, steps, Rung::Verified);
+            let joined = join(&pair, &found);
+            let answer = describe(&pair, &joined, views, &center, accuracy, steps, Rung::Verified);
             if answer.certified {
                 if let Some(cache) = cache {
-                    cache.store(&found.simplex.ids[..found.simplex.count]);
+                    cache.store_apart(&found.simplex.ids[..found.simplex.count], joined.features);
                 }
                 return answer;
             }
@@ -65,12 +75,13 @@ pub(super) fn polyhedra(
         let surface = cache.as_ref().and_then(|c| c.surface(a, b));
         climb(&pair, start, surface, rounding, accuracy, &mut steps)
     };
-    let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
+    let joined = join(&pair, &found.bounds);
+    let mut answer = describe(&pair, &joined, views, &center, accuracy, steps, found.rung);
     if !answer.certified {
         let pair = Pair::precise(a, &at_a, b, &at_b);
         let gap = SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT;
         let precise = find(&pair, &[], &pair.between, rounding, gap, accuracy, &mut steps);
-        let better = describe(&pair, &precise.bounds, views, &center, accuracy, steps, Rung::DoubleDouble);
+        let better = describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
         if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
             (answer, found.core) = (better, precise.core);
         }
@@ -80,7 +91,11 @@ pub(super) fn polyhedra(
             Enclosing::Surface(packed) => cache.store_surface(packed),
             Enclosing::Points((ids, count)) if count >= 4 => cache.store(&ids[..count]),
             Enclosing::AsBefore => {}
-            _ => cache.store(&found.bounds.simplex.ids[..found.bounds.simplex.count]),
+            _ => {
+                let simplex = &found.bounds.simplex;
+                let ids = &simplex.ids[..simplex.count];
+                if ids.len() < 4 { cache.store_apart(ids, joined.features) } else { cache.store(ids) }
+            }
         }
     }
     answer
@@ -102,13 +117,13 @@ pub(super) fn curved(
     let pair = RoundPair::new(a, &at_a, b, &at_b);
     let toward = cache.as_ref().and_then(|c| c.normal()).map_or_else(|| pair.between(), Vec3);
     let found = find(&pair, &[], &toward, rounding, SEARCH_GAP, accuracy, &mut steps);
-    let mut answer = describe(&pair, &found.bounds, views, &center, accuracy, steps, found.rung);
+    let mut answer = describe(&pair, &join(&pair, &found.bounds), views, &center, accuracy, steps, found.rung);
     let is_hopeless = answer.state == State::Overlapping && answer.upper - answer.lower > HOPELESS * pair.size();
     if !answer.certified && !is_hopeless {
         let pair = RoundPair::precise(a, &at_a, b, &at_b);
         let toward = found.bounds.normal.0.map(DoubleDouble::from);
         let precise = find(&pair, &[], &Vec3(toward), rounding, CURVED_GAP, accuracy, &mut steps);
-        let better = describe(&pair, &precise.bounds, views, &center, accuracy, steps, Rung::DoubleDouble);
+        let better = describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
         if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
             answer = better;
         }
@@ -241,11 +256,31 @@ fn upper_bound<R: Real>(pair: &impl Difference<R>, found: &Bounds<R>) -> R {
     if found.upper < -R::from(pair.error(0.0)) { found.upper } else { found.point.norm() }
 }
 
+/// What a rung proved of the cores, as points and features.
+fn join<R: Real>(pair: &impl Difference<R>, found: &Bounds<R>) -> Joined<R> {
+    let simplex = &found.simplex;
+    let first = simplex.ids[0][0];
+    let on_a = if simplex.ids[..simplex.count].iter().all(|ids| ids[0] == first) {
+        pair.point_a(first)
+    } else {
+        let weighted = |k: usize| pair.point_a(simplex.ids[k][0]).scaled(simplex.weights[k]);
+        (1..simplex.count).fold(weighted(0), |sum, k| sum + weighted(k))
+    };
+    Joined {
+        on_a,
+        point: found.point,
+        normal: found.normal,
+        lower: found.lower,
+        upper: upper_bound(pair, found),
+        features: pair.features(simplex, &found.normal),
+    }
+}
+
 /// The answer in the world, with its interval.
 #[inline]
 fn describe<R: Real>(
     pair: &impl Difference<R>,
-    found: &Bounds<R>,
+    found: &Joined<R>,
     views: [&View<'_>; 2],
     center: &Vector3,
     accuracy: Accuracy,
@@ -253,7 +288,7 @@ fn describe<R: Real>(
     rung: Rung,
 ) -> ClosestFeatures {
     // the interval of the cores
-    let upper = upper_bound(pair, found);
+    let upper = found.upper;
     let bound = pair.error(if found.lower > R::from(0.0) { upper } else { found.lower }.to_f64());
     let error = R::from(bound);
     let rounding = R::from(views[0].rounding + views[1].rounding);
@@ -264,18 +299,10 @@ fn describe<R: Real>(
     let certified = is_certified(lower, upper, accuracy, floor, pair.size());
 
     // both points, joined by the same vector that the distance is taken from
-    let simplex = &found.simplex;
-    let first = simplex.ids[0][0];
-    let on_a = if simplex.ids[..simplex.count].iter().all(|ids| ids[0] == first) {
-        pair.point_a(first)
-    } else {
-        let weighted = |k: usize| pair.point_a(simplex.ids[k][0]).scaled(simplex.weights[k]);
-        (1..simplex.count).fold(weighted(0), |sum, k| sum + weighted(k))
-    };
     let normal = found.normal.to_vector();
-    let core_a = center + on_a.to_vector();
+    let core_a = center + found.on_a.to_vector();
     let core_b = core_a + found.point.to_vector();
-    let [feature_a, feature_b] = pair.features(simplex, &found.normal);
+    let [feature_a, feature_b] = found.features;
     let signed_distance = (found.normal.dot(&found.point) - rounding).to_f64();
     debug_assert!(lower <= signed_distance && signed_distance <= upper, "{signed_distance:e} in {lower:e}..{upper:e}");
     ClosestFeatures {

@@ -48,6 +48,7 @@ mod half_space;
 mod meridian;
 mod pair;
 pub mod planar;
+mod region;
 mod rotation;
 mod round;
 mod round_pair;
@@ -102,8 +103,10 @@ fn query(
     cache: Option<&mut PairCache>,
     accuracy: Accuracy,
 ) -> Result<ClosestFeatures> {
-    check(pose_a, "pose_a")?;
-    check(pose_b, "pose_b")?;
+    if !(places(pose_a) && places(pose_b)) {
+        check(pose_a, "pose_a")?;
+        check(pose_b, "pose_b")?;
+    }
     if a.count() == 1 && b.count() == 1 {
         pieces((&a.part(0), pose_a), (&b.part(0), pose_b), cache, accuracy)
     } else {
@@ -111,18 +114,32 @@ fn query(
     }
 }
 
-/// Refuses a pose that places nothing.
-fn check(pose: &Pose, field: &'static str) -> Result<()> {
+/// Squares of a quaternion's length that give a direction [-].
+const LENGTHS: std::ops::RangeInclusive<f64> = 1e-20..=1e20;
+
+/// Whether a pose places a body: its quaternion has a direction, its position is within bounds.
+#[inline]
+fn places(pose: &Pose) -> bool {
     let q = &pose.orientation;
-    let size = (q.w * q.w + q.i * q.i) + (q.j * q.j + q.k * q.k);
-    if !(1e-20..=1e20).contains(&size) {
-        return Err(Error::value("closest features", field, "a pose whose quaternion has a length", q));
+    let is_within = |x: f64| x.abs() <= COORDINATE_MAX;
+    let p = &pose.position;
+    LENGTHS.contains(&((q.w * q.w + q.i * q.i) + (q.j * q.j + q.k * q.k)))
+        & is_within(p.x)
+        & is_within(p.y)
+        & is_within(p.z)
+}
+
+/// Refuses a pose that places nothing.
+#[cold]
+fn check(pose: &Pose, field: &'static str) -> Result<()> {
+    if places(pose) {
+        return Ok(());
     }
-    let [x, y, z]: [f64; 3] = pose.position.into();
-    if !(x.abs() <= COORDINATE_MAX && y.abs() <= COORDINATE_MAX && z.abs() <= COORDINATE_MAX) {
-        return Err(Error::value("closest features", field, "a position within ±1e30", pose.position));
+    if pose.position.iter().all(|x| x.abs() <= COORDINATE_MAX) {
+        let allowed = "a pose whose quaternion has a length";
+        return Err(Error::value("closest features", field, allowed, pose.orientation));
     }
-    Ok(())
+    Err(Error::value("closest features", field, "a position within ±1e30", pose.position))
 }
 
 /// Two convex pieces, each by its kind.

@@ -38,7 +38,7 @@ use super::simplex::Simplex;
 use super::vector::Vec3;
 use crate::math::double_double::{DoubleDouble, Real};
 use crate::math::{Pose, Quaternion, Vector3};
-use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, top_of};
+use crate::shape::convex_polyhedron::{ConvexPolyhedron, SCAN, highest, others_reach, top_of};
 
 /// A vertex of each body.
 pub(super) type Ids = [u32; 2];
@@ -427,10 +427,27 @@ impl Heights for f64 {
             (at, top) = highest(ring, &d.0);
         };
 
-        // |d|₁ ≥ |d|
-        let slack = PLATEAU_UNITS * Self::UNIT * body.radius() * (d.0[0].abs() + d.0[1].abs() + d.0[2].abs());
+        let slack = plateau_slack(body, d);
         if runner_up < top - slack { (at, top) } else { plateau_top(body, at, top, top - slack, &d.0) }
     }
+}
+
+/// How far apart heights along `d` have to be for the higher one to be told [m].
+#[inline]
+fn plateau_slack(body: &ConvexPolyhedron, d: &Vec3<f64>) -> f64 {
+    // |d|₁ ≥ |d|
+    PLATEAU_UNITS * f64::UNIT * body.radius() * (d.0[0].abs() + d.0[1].abs() + d.0[2].abs())
+}
+
+/// The height along `d`, body axes, of a vertex given twice or of the ends of an edge, if no other vertex comes as
+/// high: none does where no neighbour does.
+#[inline]
+pub(super) fn crest(body: &ConvexPolyhedron, d: &Vec3<f64>, ends: Ids) -> Option<f64> {
+    let [h, k] = ends.map(|i| Vec3(body.vertices_about_center()[i as usize]).dot(d));
+    let floor = (if h < k { h } else { k }) - plateau_slack(body, d);
+    let is_passed = |i: u32| others_reach(body.ring_blocks(i as usize), floor, &d.0, ends);
+    let is_crest = !is_passed(ends[0]) && (ends[0] == ends[1] || !is_passed(ends[1]));
+    is_crest.then_some(if h > k { h } else { k })
 }
 
 /// The highest of the vertices that hang together with the top at heights from `floor` on.

@@ -43,6 +43,21 @@ impl Block {
     }
 }
 
+/// Whether a vertex other than two is at a height along `d` from `floor` on.
+#[inline]
+pub(crate) fn others_reach(blocks: &[Block], floor: f64, d: &[f64; 3], two: [u32; 2]) -> bool {
+    blocks.iter().any(|block| {
+        let mut high = block.heights(d).simd_ge(f64x4::splat(floor)).to_bitmask();
+        while let Some(&id) = block.ids.get(high.trailing_zeros() as usize) {
+            if id != two[0] && id != two[1] {
+                return true;
+            }
+            high &= high - 1;
+        }
+        false
+    })
+}
+
 /// The height of the highest vertex along `d`; of none `f64::MIN`.
 #[inline]
 pub(crate) fn top_of(blocks: &[Block], d: &[f64; 3]) -> f64 {

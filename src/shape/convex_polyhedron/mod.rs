@@ -25,7 +25,7 @@ mod vector;
 use crate::error::{Error, Result};
 use crate::shape::hull;
 use crate::tolerance::{COORDINATE_MAX, COORDINATE_MIN, FACE_FLATNESS};
-pub(crate) use blocks::{Block, highest, top_of};
+pub(crate) use blocks::{Block, highest, others_reach, top_of};
 use directions::{cells_per_side, cube_cell};
 use polygons::polygons;
 use vector::{add, area_vector, dot, norm, sub, unit};
