@@ -81,7 +81,8 @@ pub(super) fn polyhedra(
         let pair = Pair::precise(a, &at_a, b, &at_b);
         let gap = SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT;
         let precise = find(&pair, &[], &pair.between, rounding, gap, accuracy, &mut steps);
-        let better = describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
+        let better =
+            describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
         if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
             (answer, found.core) = (better, precise.core);
         }
@@ -123,7 +124,8 @@ pub(super) fn curved(
         let pair = RoundPair::precise(a, &at_a, b, &at_b);
         let toward = found.bounds.normal.0.map(DoubleDouble::from);
         let precise = find(&pair, &[], &Vec3(toward), rounding, CURVED_GAP, accuracy, &mut steps);
-        let better = describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
+        let better =
+            describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
         if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
             answer = better;
         }

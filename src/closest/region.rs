@@ -60,11 +60,8 @@ fn over_face(pair: &Pair<'_, f64>, side: usize, f: u32, other: u32) -> Option<Jo
     other_body.vertices_about_center().get(other as usize)?;
 
     // the vertex about the centre of the face's body
-    let (vertex, between) = if side == 0 {
-        (pair.point_b(other), pair.between)
-    } else {
-        (pair.point_a(other), -pair.between)
-    };
+    let (vertex, between) =
+        if side == 0 { (pair.point_b(other), pair.between) } else { (pair.point_a(other), -pair.between) };
     let at = vertex + between;
     let seen = pair.rotations.rotate_back(side, &at);
     let margin = WALL_UNITS * f64::UNIT * pair.size * pair.size;

@@ -27,116 +27,36 @@
 //! | edge, vertex | such that n stays perpendicular to the edge | |
 //! | any | 0 | far away, where n hardly matters |
 //!
+//! From there the search leaps on, where that can be proved from its far end backwards, with the same bound and
+//! time reversed: to where the two features meet if they stay the closest, which is found on their poses alone
+//! and is the impact then, or half as far again as the step. No query is made before the proof stands.
+//!
 //! For Ω = 0 a body's part of the bound may also be the plain one of Mirtich (1996), `τ |ω × n| r`, or
 //! for fast spins the support of all that it sweeps: of a steady spin the solid of revolution, else the
-//! ball of its radius. Whatever is least counts.
+//! ball of its radius. Whatever is least counts. Bodies that spin fast are looked at by `sweep` first.
 //!
 //! **What is proved.** `s` is proved positive on the whole way, so nothing is missed and nothing is late,
 //! up to the rounding of poses and supports, which `ε` is kept above. Rotation is bounded by `r`, the
 //! largest distance from the moving point.
 
-use super::motion::{Instant, MotionBounds, Moving};
-use super::sweep::{Swept, parting};
+use super::motion::Moving;
+use super::side::{Part, Placed, Side};
+use super::sweep::Sweeps;
 use super::{Found, Outcome};
 use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, Piece};
 use crate::error::Result;
-use crate::math::{Matrix3, Vector3, quaternion};
-
-/// A convex body and its motion.
-struct Side<'a> {
-    piece: Piece<'a>,
-    motion: &'a dyn Moving,
-    /// From the moving point to the piece's centre, shape axes [m].
-    offset: Vector3,
-    /// Largest distance of the core from the moving point [m].
-    radius: f64,
-    /// Whether it is a half space: all of it on one side of a plane.
-    is_plane: bool,
-    /// Where the last climb ended.
-    vertex: u32,
-    /// Its corners from the moving point, shape axes [m]; none of a curved body, or before they are asked for.
-    corners: Option<Vec<Vector3>>,
-    /// What a steady spin sweeps.
-    swept: Option<Swept>,
-}
-
-/// A body at an instant.
-pub(super) struct Placed {
-    pub(super) instant: Instant,
-    pub(super) rotation: Matrix3,
-}
-
-impl<'a> Side<'a> {
-    fn new(piece: Piece<'a>, motion: &'a dyn Moving) -> Self {
-        let offset = piece.center - motion.center();
-        let is_plane = piece.plane().is_some();
-        let radius = if is_plane { 0.0 } else { offset.norm() + piece.reach - piece.rounding() };
-        Self { piece, motion, offset, radius, is_plane, vertex: 0, corners: None, swept: None }
-    }
-
-    fn at(&self, t: f64) -> Placed {
-        let instant = self.motion.at(t);
-        Placed { rotation: quaternion::to_matrix(&instant.pose.orientation), instant }
-    }
-
-    /// The support `max d·(a − c)` of the core, from the moving point; of a half space its plane's.
-    fn height(&mut self, placed: &Placed, d: &Vector3) -> f64 {
-        let d = placed.rotation.tr_mul(d);
-        let about_center = if self.is_plane { 0.0 } else { self.piece.height(&d, &mut self.vertex) };
-        d.dot(&self.offset) + about_center
-    }
-
-    /// Works out the corners; whether there are any.
-    fn has_corners(&mut self) -> bool {
-        if self.corners.is_none() {
-            let mut corners = self.piece.corners();
-            corners.iter_mut().flatten().for_each(|v| *v += self.offset);
-            self.corners = corners;
-        }
-        self.corners.is_some()
-    }
-
-    /// What the spin at this instant sweeps; none of a curved body.
-    fn swept(&mut self, placed: &Placed) -> Option<&Swept> {
-        let spin = placed.instant.angular_velocity;
-        if self.swept.as_ref().is_none_or(|swept| swept.spin != spin && swept.spin != -spin) && self.has_corners() {
-            self.swept = self.corners.as_ref().map(|corners| Swept::new(corners, placed));
-        }
-        self.swept.as_ref()
-    }
-
-    /// The point farthest along `d`, from the moving point [m]: of half of what is swept, or of the body itself.
-    fn farthest(&self, placed: &Placed, half: Option<usize>, d: &Vector3) -> Vector3 {
-        if let (Some(half), Some(swept)) = (half, &self.swept) {
-            return swept.farthest(half, d);
-        }
-        let d = placed.rotation.tr_mul(d);
-        let mut top = (f64::NEG_INFINITY, Vector3::zeros());
-        for v in self.corners.iter().flatten() {
-            let height = d.dot(v);
-            if height > top.0 {
-                top = (height, *v);
-            }
-        }
-        placed.rotation * top.1
-    }
-
-    /// Direction of an edge, world axes.
-    fn edge(&self, placed: &Placed, edge: u32) -> Vector3 {
-        self.piece.edge(edge).map_or_else(Vector3::zeros, |e| placed.rotation * e)
-    }
-}
+use crate::math::Vector3;
 
 /// The pair at an instant.
-struct Stand {
-    time: f64,
-    a: Placed,
-    b: Placed,
+pub(super) struct Stand {
+    pub(super) time: f64,
+    pub(super) a: Placed,
+    pub(super) b: Placed,
     /// From the moving point of A to that of B [m], and its rate [m/s].
-    between: Vector3,
-    approach: Vector3,
+    pub(super) between: Vector3,
+    pub(super) approach: Vector3,
     /// Rounding of a separation [m].
-    error: f64,
+    pub(super) error: f64,
     /// Largest speed of a point of one body as seen from the other [m/s].
     speed: f64,
     /// Whether time runs backwards: all velocities have the other sign.
@@ -155,12 +75,12 @@ impl Stand {
 }
 
 /// A direction from A to B, and what it parts.
-struct Parting {
-    normal: Vector3,
+pub(super) struct Parting {
+    pub(super) normal: Vector3,
     /// Supports of both along it [m].
-    heights: [f64; 2],
+    pub(super) heights: [f64; 2],
     /// Whether these are of all that is swept.
-    swept: [bool; 2],
+    pub(super) swept: [bool; 2],
 }
 
 /// The closest features at an instant, and what the bounds are worked out from.
@@ -200,10 +120,12 @@ enum Phase {
 
 /// A search for the first impact of two bodies.
 pub(super) struct Search<'a> {
-    a: Side<'a>,
-    b: Side<'a>,
+    pub(super) a: Side<'a>,
+    pub(super) b: Side<'a>,
     cache: &'a mut PairCache,
     queries: u32,
+    /// How often what is swept was looked at.
+    pub(super) sweeps: u32,
     /// Where the search began [s], and how far from the origin the moving points were then, together [m].
     from: f64,
     start: f64,
@@ -215,7 +137,7 @@ impl<'a> Search<'a> {
         b: (Piece<'a>, &'a dyn Moving),
         cache: &'a mut PairCache,
     ) -> Self {
-        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0, from: 0.0, start: 0.0 }
+        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0, sweeps: 0, from: 0.0, start: 0.0 }
     }
 
     /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
@@ -228,7 +150,8 @@ impl<'a> Search<'a> {
         if begin >= to {
             return Ok(self.found(Outcome::Clear, to, 0));
         }
-        let mut look = if begin > from { self.look(begin)? } else { self.look_at(stand)? };
+        let stand = if begin > from { self.stand(begin) } else { stand };
+        let mut look = self.look_at(stand)?;
         let mut eps_here = eps.max(self.rounding(&look.stand));
         let gap = look.closest.signed_distance;
         let mut phase = if gap > eps_here || begin > from {
@@ -250,7 +173,7 @@ impl<'a> Search<'a> {
                         return Ok(self.found(Outcome::Stalled, t, round));
                     }
                     // what comes with speed is an impact; what hardly moves may be about to leave
-                    let ahead = self.advance(&look, -eps_here, to - t, TRIALS);
+                    let ahead = self.advance(&look, -eps_here, to - t, f64::INFINITY, TRIALS);
                     if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
                         return Ok(self.found(Outcome::At, t, round));
                     }
@@ -269,8 +192,11 @@ impl<'a> Search<'a> {
                 Phase::Leaving(floor) => floor,
                 Phase::Grazing(_) => -eps_here,
             };
-            let trials = if matches!(phase, Phase::Free) { TRIALS } else { TRIALS_WITHIN };
-            let step = self.advance(&look, level, to - t, trials);
+            let (first, trials) = match phase {
+                Phase::Free => (self.falls(&look), TRIALS),
+                _ => (f64::INFINITY, TRIALS_WITHIN),
+            };
+            let step = self.advance(&look, level, to - t, first, trials);
             if !matches!(phase, Phase::Free) {
                 stays += 1;
             }
@@ -300,33 +226,29 @@ impl<'a> Search<'a> {
             if next <= t {
                 return Ok(self.found(Outcome::Stalled, t, round));
             }
-            look = if matches!(phase, Phase::Free) {
-                if let Some(stand) = self.leap(&look, step, to - t, eps_here) {
-                    if stand.time >= to {
-                        return Ok(self.found(Outcome::Clear, to, round + 1));
-                    }
-                    self.look_at(stand)?
-                } else {
-                    let next = self.sweep(&mut sweeps, next, to, eps);
-                    if next >= to {
-                        return Ok(self.found(Outcome::Clear, to, round + 1));
-                    }
-                    self.look(next)?
-                }
+            let stand = if !matches!(phase, Phase::Free) {
+                self.stand(next)
+            } else if let Some(stand) = self.leap(&look, step, to - t, eps_here) {
+                stand
             } else {
-                self.look(next)?
+                let next = self.sweep(&mut sweeps, next, to, eps);
+                self.stand(next)
             };
+            if matches!(phase, Phase::Free) && stand.time >= to {
+                return Ok(self.found(Outcome::Clear, to, round + 1));
+            }
+            look = self.look_at(stand)?;
             eps_here = eps.max(self.rounding(&look.stand));
         }
         Ok(self.found(Outcome::Stalled, look.stand.time, ROUNDS))
     }
 
-    fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
-        Found { outcome, time, until: time, iterations, queries: self.queries }
+    fn found(&self, outcome: Outcome, time: f64, rounds: u32) -> Found {
+        Found { outcome, time, until: time, iterations: rounds + self.sweeps, queries: self.queries }
     }
 
     /// The pair at `t`.
-    fn stand(&self, t: f64) -> Stand {
+    pub(super) fn stand(&self, t: f64) -> Stand {
         let (a, b) = (self.a.at(t), self.b.at(t));
         let between = b.instant.center - a.instant.center;
         let approach = b.instant.velocity - a.instant.velocity;
@@ -337,12 +259,7 @@ impl<'a> Search<'a> {
         Stand { time: t, a, b, between, approach, error, speed, is_reversed: false }
     }
 
-    /// The closest features at `t`, and what the bounds need.
-    fn look(&mut self, t: f64) -> Result<Look> {
-        let stand = self.stand(t);
-        self.look_at(stand)
-    }
-
+    /// The closest features where the pair stands, and what the bounds need.
     fn look_at(&mut self, stand: Stand) -> Result<Look> {
         let (a, b) = (&stand.a.instant, &stand.b.instant);
         let closest = self.a.piece.closest(&a.pose, &self.b.piece, &b.pose, self.cache, Accuracy::Exact)?;
@@ -354,7 +271,7 @@ impl<'a> Search<'a> {
     }
 
     /// Gap below which rounding decides [m].
-    fn rounding(&self, stand: &Stand) -> f64 {
+    pub(super) fn rounding(&self, stand: &Stand) -> f64 {
         let (a, b) = (&stand.a.instant, &stand.b.instant);
         let turned = (stand.time - self.from)
             * (a.angular_velocity.norm() * self.a.radius + b.angular_velocity.norm() * self.b.radius);
@@ -368,23 +285,30 @@ impl<'a> Search<'a> {
         step >= left || step * look.stand.speed >= way
     }
 
+    /// About how long what turning does to the gap takes to close it [s].
+    fn falls(&self, look: &Look) -> f64 {
+        let bend = |side: &Side<'_>, placed: &Placed| side.radius * placed.instant.angular_velocity.norm_squared();
+        let bends = bend(&self.a, &look.stand.a) + bend(&self.b, &look.stand.b);
+        AHEAD * (look.closest.signed_distance / bends).sqrt()
+    }
+
     /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
-    /// above `level` [m].
-    fn advance(&mut self, look: &Look, level: f64, left: f64, trials: u32) -> f64 {
+    /// above `level` [m]; `first` is how far ahead is tried first [s].
+    fn advance(&mut self, look: &Look, level: f64, left: f64, first: f64, trials: u32) -> f64 {
         // the proposal: where the line through the gap meets the level; no bound reaches beyond it
         let proposed = if look.closing > 0.0 { (look.closest.signed_distance - level) / look.closing } else { left };
         let proposed = if proposed < left { proposed.max(0.0) } else { left };
 
-        // the first look ahead: where the fall of a body that turns would meet the level
-        let fall = [(&self.a, &look.stand.a), (&self.b, &look.stand.b)]
-            .map(|(side, placed)| side.radius * placed.instant.angular_velocity.norm_squared());
-        let first = AHEAD * (look.closest.signed_distance / (fall[0] + fall[1])).sqrt();
         let mut best = 0.0_f64;
         for turning in self.turnings(&look.stand, look.features(), &look.parting.normal).into_iter().flatten() {
-            let mut h = if first < proposed { first } else { proposed };
+            let mut h = if first > 0.0 && first < proposed { first } else { proposed };
             for _ in 0..trials {
                 let proved = self.proved(&look.stand, &look.parting, &turning, level, h);
                 best = best.max(proved);
+                if proved >= h && h < proposed {
+                    h = (4.0 * h).min(proposed);
+                    continue;
+                }
                 if proved >= NEARLY * h {
                     break;
                 }
@@ -423,9 +347,10 @@ impl<'a> Search<'a> {
         there.stand.reverse();
         let turnings = self.turnings(&there.stand, look.features(), &n);
         let is_free = rest <= 0.0
-            || turnings.into_iter().flatten().any(|turning| {
-                self.proved(&there.stand, &there.parting, &turning, level, rest) >= rest
-            });
+            || turnings
+                .into_iter()
+                .flatten()
+                .any(|turning| self.proved(&there.stand, &there.parting, &turning, level, rest) >= rest);
         there.stand.reverse();
         is_free.then_some(there.stand)
     }
@@ -534,7 +459,7 @@ impl<'a> Search<'a> {
     }
 
     /// How long from a look on, at most `h` [s], the bound with this Ω stays above `level` [m].
-    fn proved(&mut self, stand: &Stand, parting: &Parting, turning: &Vector3, level: f64, h: f64) -> f64 {
+    pub(super) fn proved(&mut self, stand: &Stand, parting: &Parting, turning: &Vector3, level: f64, h: f64) -> f64 {
         let n = &parting.normal;
         let t = stand.time;
         let (from, to) = if stand.is_reversed { (t - h, t) } else { (t, t + h) };
@@ -571,222 +496,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// When and how to look ahead by what the bodies sweep.
-struct Sweeps {
-    /// Not before this time [s].
-    after: f64,
-    /// The direction that parted each pair of halves last.
-    directions: [Option<Vector3>; 4],
-    /// The direction that parted a spinning body from what goes around it.
-    circled: Option<Vector3>,
-}
-
-impl Sweeps {
-    fn new(search: &Search<'_>, from: f64, to: f64) -> Self {
-        let is_steady = |side: &Side<'_>| {
-            let bounds = side.motion.bounds(from, to);
-            bounds.angular_acceleration == 0.0 && (to - from) * bounds.angular_speed >= TURN
-        };
-        let after = if is_steady(&search.a) || is_steady(&search.b) { from } else { f64::INFINITY };
-        Self { after, directions: [None; 4], circled: None }
-    }
-}
-
-impl Search<'_> {
-    /// The time up to which what the bodies sweep from `t` on is apart, `to` at most [s].
-    fn sweep(&mut self, sweeps: &mut Sweeps, t: f64, to: f64, eps: f64) -> f64 {
-        let mut t = t;
-        while t >= sweeps.after {
-            if !(self.a.has_corners() && self.b.has_corners()) {
-                sweeps.after = f64::INFINITY;
-                break;
-            }
-            let stand = self.stand(t);
-            let [w_a, w_b] = [&stand.a, &stand.b].map(|placed| placed.instant.angular_velocity.norm());
-            let fastest = w_a.max(w_b);
-            if fastest * (to - t) < TURN {
-                sweeps.after = f64::INFINITY;
-                break;
-            }
-
-            // the slower body stands where it is, unless it is nearly as fast
-            let swept = [w_a, w_b].map(|w| w >= ALSO * fastest);
-            let is_steady = |side: &Side<'_>| side.motion.bounds(t, to).angular_acceleration == 0.0;
-            if !((!swept[0] || is_steady(&self.a)) && (!swept[1] || is_steady(&self.b))) {
-                break;
-            }
-            let level = 0.5 * eps.max(self.rounding(&stand));
-            let mut step = self.swept_step(sweeps, &stand, swept, level, to - t);
-            if step * fastest < SWEEPS && step < to - t && swept != [true; 2] {
-                step = step.max(self.circled_step(sweeps, &stand, level, to - t));
-            }
-            if step >= to - t {
-                return to;
-            }
-            t += step;
-            if step * fastest < SWEEPS {
-                sweeps.after = t + PAUSE / fastest;
-            }
-        }
-        t
-    }
-
-    fn swept_step(&mut self, sweeps: &mut Sweeps, stand: &Stand, swept: [bool; 2], level: f64, left: f64) -> f64 {
-        let mut halves = [[None; 2]; 2];
-        let sides = [(&mut self.a, &stand.a, swept[0]), (&mut self.b, &stand.b, swept[1])];
-        for ((side, placed, swept), halves) in sides.into_iter().zip(&mut halves) {
-            *halves = match if swept { side.swept(placed) } else { None } {
-                Some(swept) => [0, 1].map(|half| swept.has(half).then_some(Some(half))),
-                None => [Some(None), None],
-            };
-        }
-
-        // every half is to stay apart from every half, by more than an approach takes for a rad
-        let fastest = stand.a.instant.angular_velocity.norm().max(stand.b.instant.angular_velocity.norm());
-        let least = stand.approach.norm() / fastest;
-        let mut step = left;
-        for (i, half_a) in halves[0].into_iter().enumerate().filter_map(|(i, half)| Some((i, half?))) {
-            for (j, half_b) in halves[1].into_iter().enumerate().filter_map(|(j, half)| Some((j, half?))) {
-                let direction = &mut sweeps.directions[2 * i + j];
-                let way = self.parted_step(direction, stand, [half_a, half_b], [least, level], left);
-                if way <= 0.0 {
-                    return 0.0;
-                }
-                step = step.min(way);
-            }
-        }
-        step
-    }
-
-    /// How long the body that spins faster stays apart from all that the other passes when, seen from it, it goes
-    /// around [s]: a direction that turns with the spinning body, for many turns of it.
-    fn circled_step(&mut self, sweeps: &mut Sweeps, stand: &Stand, level: f64, left: f64) -> f64 {
-        let (w_a, w_b) = (stand.a.instant.angular_velocity, stand.b.instant.angular_velocity);
-        let is_a = w_a.norm_squared() >= w_b.norm_squared();
-        let (side, placed, w, sign) = if is_a { (&self.a, &stand.a, w_a, 1.0) } else { (&self.b, &stand.b, w_b, -1.0) };
-        let (other, other_placed) = if is_a { (&self.b, &stand.b) } else { (&self.a, &stand.a) };
-        let (between, approach) = (sign * stand.between, sign * stand.approach);
-        let axis = w / w.norm();
-        let corners = other.corners.iter().flatten().map(|v| between + other_placed.rotation * v);
-        let circled = Swept::around(axis, corners);
-
-        // the direction is kept as it was seen from the axis
-        let first = sweeps.circled.unwrap_or_else(|| {
-            let length = between.norm();
-            if length > 0.0 { between / length } else { axis }
-        });
-        let mut lowest = |n: &Vector3| circled.farthest(0, &-n) - side.farthest(placed, None, n);
-        let least = approach.norm() / w.norm();
-        let found = parting(&first, least, &mut lowest);
-        sweeps.circled = found;
-        let Some(n) = found else { return 0.0 };
-
-        // whatever its phase, the other comes nearer no faster than this
-        let separation = n.dot(&lowest(&n)) - side.piece.rounding() - other.piece.rounding();
-        let along = n.dot(&axis);
-        let from_axis = |v: &Vector3| v.cross(&axis).norm();
-        let [bounds, other_bounds] =
-            [side, other].map(|side| side.motion.bounds(stand.time, stand.time + left));
-        let rate = along * approach.dot(&axis)
-            - from_axis(&n) * from_axis(&approach)
-            - other_bounds.angular_speed * other.radius;
-        let bend = (other_bounds.acceleration - bounds.acceleration).norm() + bounds.deviation + other_bounds.deviation;
-        crossing(separation - stand.error - level, rate, bend).min(left)
-    }
-
-    /// How long a half of what is swept, or a body where it stands, stays apart from another [s].
-    fn parted_step(
-        &mut self,
-        direction: &mut Option<Vector3>,
-        stand: &Stand,
-        halves: [Option<usize>; 2],
-        [least, level]: [f64; 2],
-        left: f64,
-    ) -> f64 {
-        let (a, b) = (&self.a, &self.b);
-        let points =
-            |n: &Vector3| (a.farthest(&stand.a, halves[0], n), stand.between + b.farthest(&stand.b, halves[1], &-n));
-        let first = direction.unwrap_or_else(|| {
-            let length = stand.between.norm();
-            if length > 0.0 { stand.between / length } else { Vector3::x() }
-        });
-        let found = parting(&first, least, &mut |n| {
-            let (p, q) = points(n);
-            q - p
-        });
-        let Some(n) = found else { return 0.0 };
-        *direction = found;
-        let (p, q) = points(&n);
-        let heights = [n.dot(&p), -n.dot(&(q - stand.between))];
-        let parting = Parting { normal: n, heights, swept: halves.map(|half| half.is_some()) };
-
-        let (mut best, mut h) = (0.0_f64, left);
-        for _ in 0..TRIALS {
-            let proved = self.proved(stand, &parting, &Vector3::zeros(), level, h);
-            best = best.max(proved);
-            if proved >= NEARLY * h {
-                break;
-            }
-            h = (2.0 * proved).max(h / 16.0);
-        }
-        best
-    }
-}
-
-/// A body's part of the bound: its support is at most the chord from `start` to `end` plus `½ bend τ²`.
-struct Part {
-    start: f64,
-    end: f64,
-    bend: f64,
-}
-
-impl Side<'_> {
-    /// The part along `d` = ±n, which turns with Ω, over `h` [s].
-    #[expect(clippy::too_many_arguments, reason = "the symbols of one formula")]
-    fn part(
-        &mut self,
-        placed: &Placed,
-        bounds: &MotionBounds,
-        d: &Vector3,
-        height: f64,
-        turning: &Vector3,
-        resting: bool,
-        h: f64,
-    ) -> Part {
-        let w = &placed.instant.angular_velocity;
-        let r = self.radius;
-
-        // in axes that turn with Ω: a′ = ρ × a and a″ = ρ × (ρ × a) + ρ′ × a with ρ = ω − Ω
-        if self.is_plane && bounds.angular_acceleration > 0.0 {
-            return Part { start: height, end: f64::INFINITY, bend: 0.0 }; // a plane without end: nothing is proved
-        }
-        let relative = w - turning;
-        let across = relative.cross(d).norm();
-        let change = bounds.angular_acceleration * (1.0 + turning.norm() * h) + turning.cross(w).norm();
-        let drift = change * h;
-        let bend = r * ((across + drift) * (relative.norm() + drift) + change);
-
-        // without Ω: the plain bound, or all that is swept
-        let mut plain = f64::INFINITY;
-        if resting && !self.is_plane {
-            let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
-            plain = height + h * fastest * r;
-            let is_steady = bounds.angular_acceleration == 0.0 && h * bounds.angular_speed >= SWEEPS;
-            let all = if is_steady { self.swept(placed).map_or(r, |swept| swept.height(d)) } else { r };
-            if all <= plain && all <= height + 0.5 * bend * h * h {
-                return Part { start: all, end: all, bend: 0.0 };
-            }
-        }
-        let end = if across == 0.0 { height } else { self.height(placed, &(d + h * d.cross(&relative))) };
-        if plain < end + 0.5 * bend * h * h {
-            return Part { start: height, end: plain, bend: 0.0 };
-        }
-        Part { start: height, end, bend }
-    }
-}
-
 /// The first root of `c + b τ − ½ k τ²`, for a positive start c; without one, infinity.
-fn crossing(c: f64, b: f64, k: f64) -> f64 {
+pub(super) fn crossing(c: f64, b: f64, k: f64) -> f64 {
     if c <= 0.0 || c.is_nan() {
         return 0.0;
     }
@@ -803,16 +514,16 @@ fn crossing(c: f64, b: f64, k: f64) -> f64 {
 }
 
 /// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
-const ROUNDS: u32 = 100_000;
+pub(super) const ROUNDS: u32 = 100_000;
 /// Where a bound is tried first [-].
 const AHEAD: f64 = 2.0;
 /// How often a bound is tried with another look ahead [-].
-const TRIALS: u32 = 4;
+pub(super) const TRIALS: u32 = 4;
 /// The same within ε [-]: what touches may leave in one point while another comes from nearby, and the
 /// look ahead must become short enough to tell them apart.
 const TRIALS_WITHIN: u32 = 16;
 /// A bound that proves so much of what it looked ahead is good enough [-].
-const NEARLY: f64 = 0.5;
+pub(super) const NEARLY: f64 = 0.5;
 /// Rounding of a separation from supports, in ε of the pair's size [-]: 29/2 of the radii and 10/2 of the
 /// distance as in the closest features, once for each end of the chord.
 const SUPPORT_UNITS: f64 = 32.0;
@@ -822,8 +533,6 @@ const NEAR_UNITS: f64 = 144.0;
 /// The same of coordinates and of the way that turning takes [-]: a sum of positions, a product of rate
 /// and time.
 const FAR_UNITS: f64 = 8.0;
-/// Angle from which on a spin is taken for all that it sweeps [rad].
-const SWEEPS: f64 = 1.0;
 /// The gap that is aimed at, in ε [-]: between the level that is proved and what counts as contact.
 const AIM: f64 = 0.75;
 /// How far a leap reaches, in proved steps [-]: what bends the bound forwards does so backwards.
@@ -832,12 +541,6 @@ const LEAP: f64 = 1.6;
 const LEAST_LEAP: f64 = 1.0;
 /// Rounds of the secant for where features meet [-].
 const ROOT: u32 = 8;
-/// Angle left to turn from which on what is swept is looked at first [rad].
-const TURN: f64 = std::f64::consts::PI;
-/// A body is taken for all that it sweeps where it spins with this part of the faster one's rate [-].
-const ALSO: f64 = 0.25;
-/// Angle for which sweeps are not tried again after one that led nowhere [rad].
-const PAUSE: f64 = std::f64::consts::PI;
 /// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
 const LEAST_STAY: f64 = 10.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].

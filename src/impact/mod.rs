@@ -17,7 +17,9 @@ mod ends;
 mod guaranteed;
 pub mod motion;
 mod secant;
+mod side;
 mod sweep;
+mod swept;
 
 pub use ends::Found;
 pub use motion::{Instant, Motion, MotionBounds, Moving};

@@ -1,166 +1,188 @@
-//! What a spinning body sweeps, and a direction that parts it from another.
-//!
-//! A body that turns steadily about its moving point stays within a solid of revolution. Cut in two by the
-//! plane through that point across the axis, its halves are tight also of a rod that spins askew: its swept
-//! solid is a waisted one, and the hulls of the halves are the two cones.
+//! Spinning bodies from afar: a look at what they sweep may prove many turns free at once, without a query.
 //!
 //! ```text
-//! h(d) = max z (d·u) + r |d × u|      z along the axis u, r from it, over the corners of the half
+//! swept     A and B stay within solids of revolution about their own axes, and these move along Δ
+//! circled   seen from A, which spins, B goes around A's axis: within a solid of revolution about that axis
 //! ```
 //!
-//! The halves stay where they are, whatever the angle, so that one direction may hold for many turns. It is
-//! found by the method of Mitchell, Dem'yanov and Malozemov (1974) for the point of a convex set nearest to
-//! the origin, which needs only the set's lowest points; half of the distance is good enough.
+//! The first serves while the solids are apart. A rod that spins askew sweeps a waisted solid, and what is inside
+//! one of its funnels is inside the hull of either half, but not of what goes around: there the second serves,
+//! along a direction that turns with A. The body that spins slower stands as it is in place of what it sweeps, and
+//! its turning enters with the bound of [`Side::part`] or with its speed.
 
-use super::guaranteed::Placed;
+use super::guaranteed::{NEARLY, Parting, ROUNDS, Search, Stand, TRIALS, crossing};
+use super::side::{SWEEPS, Side};
+use super::swept::{Swept, parting};
 use crate::math::Vector3;
 
-/// The solid of revolution that a body fills when it spins.
-pub(super) struct Swept {
-    pub(super) spin: Vector3,
-    axis: Vector3,
-    /// Of either half the corners that may be farthest: how far along the axis and how far from it [m]. The second
-    /// is empty where cutting leaves no waist.
-    halves: [Vec<[f64; 2]>; 2],
+/// When and how to look ahead by what the bodies sweep.
+pub(super) struct Sweeps {
+    /// Not before this time [s].
+    after: f64,
+    /// The direction that parted each pair of halves last.
+    directions: [Option<Vector3>; 4],
+    /// The direction that parted a spinning body from what goes around it.
+    circled: Option<Vector3>,
 }
 
-impl Swept {
-    /// What the hull of `corners` (from the moving point, shape axes [m]) sweeps.
-    pub(super) fn new(corners: &[Vector3], placed: &Placed) -> Self {
-        let spin = placed.instant.angular_velocity;
-        let axis = spin / spin.norm();
-        let axis_body = placed.rotation.tr_mul(&axis);
-        let profile = |v: &Vector3| [v.dot(&axis_body), v.cross(&axis_body).norm()];
-        let whole: Vec<[f64; 2]> = corners.iter().map(profile).collect();
-        let halves = Self::cut(corners, &whole, &axis_body).unwrap_or_else(|| [whole, Vec::new()]);
-        Self { spin, axis, halves }
-    }
-
-    /// What the hull of `points`, each from a point of the axis [m], sweeps when it goes around the axis.
-    pub(super) fn around(axis: Vector3, points: impl Iterator<Item = Vector3>) -> Self {
-        let whole = points.map(|p| [p.dot(&axis), p.cross(&axis).norm()]).collect();
-        Self { spin: axis, axis, halves: [whole, Vec::new()] }
-    }
-
-    /// The halves, if the body is much thinner between than its ends would have it.
-    fn cut(corners: &[Vector3], whole: &[[f64; 2]], axis: &Vector3) -> Option<[Vec<[f64; 2]>; 2]> {
-        if corners.len() > FEW {
-            return None;
-        }
-        let (mut waist, mut straight) = (0.0_f64, 0.0_f64);
-        for (v, &[z_v, r_v]) in corners.iter().zip(whole).filter(|(_, [z, _])| *z > 0.0) {
-            for (w, &[z_w, r_w]) in corners.iter().zip(whole).filter(|(_, [z, _])| *z <= 0.0) {
-                let part = z_v / (z_v - z_w);
-                waist = waist.max((v + part * (w - v)).cross(axis).norm_squared());
-                straight = straight.max(r_v + part * (r_w - r_v));
-            }
-        }
-        let waist = waist.sqrt();
-        if !(waist < WAIST * straight) {
-            return None;
-        }
-        Some([false, true].map(|up| {
-            let mut half: Vec<_> = whole.iter().copied().filter(|[z, _]| (*z > 0.0) == up).collect();
-            half.push([0.0, waist]);
-            keep_farthest(&mut half);
-            half
-        }))
-    }
-
-    /// Its support along `d` [m].
-    pub(super) fn height(&self, d: &Vector3) -> f64 {
-        let (along, from) = (d.dot(&self.axis), d.cross(&self.axis).norm());
-        self.halves.iter().flatten().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// Whether anything is in a half.
-    pub(super) fn has(&self, half: usize) -> bool {
-        !self.halves[half].is_empty()
-    }
-
-    /// The point of a half that is farthest along `d`, from the moving point [m].
-    pub(super) fn farthest(&self, half: usize, d: &Vector3) -> Vector3 {
-        let along = d.dot(&self.axis);
-        let out = d - along * self.axis;
-        let from = out.norm();
-        let height = |[z, r]: &[f64; 2]| z * along + r * from;
-        let top = self.halves[half].iter().fold([0.0, 0.0, f64::NEG_INFINITY], |top, p| {
-            let h = height(p);
-            if h > top[2] { [p[0], p[1], h] } else { top }
-        });
-        let out = if from > 0.0 { out / from } else { out };
-        top[0] * self.axis + top[1] * out
+impl Sweeps {
+    pub(super) fn new(search: &Search<'_>, from: f64, to: f64) -> Self {
+        let is_polyhedron = |side: &Side<'_>| side.piece.edge(0).is_some();
+        let is_steady = |side: &Side<'_>| {
+            let bounds = side.motion.bounds(from, to);
+            bounds.angular_acceleration == 0.0 && (to - from) * bounds.angular_speed >= TURN
+        };
+        let may_sweep =
+            is_polyhedron(&search.a) && is_polyhedron(&search.b) && (is_steady(&search.a) || is_steady(&search.b));
+        let after = if may_sweep { from } else { f64::INFINITY };
+        Self { after, directions: [None; 4], circled: None }
     }
 }
 
-/// Leaves of the points (z, r) only those that are farthest in some direction with r upward: the upper hull.
-fn keep_farthest(points: &mut Vec<[f64; 2]>) {
-    points.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-    let mut kept = 0;
-    for k in 0..points.len() {
-        let [z, r] = points[k];
-        while kept > 0 {
-            let [z1, r1] = points[kept - 1];
-            let is_under = if kept > 1 {
-                let [z0, r0] = points[kept - 2];
-                (z1 - z0) * (r - r0) >= (r1 - r0) * (z - z0)
-            } else {
-                z1 == z
-            };
-            if !is_under {
+impl Search<'_> {
+    /// The time up to which what the bodies sweep from `t` on is apart, `to` at most [s].
+    pub(super) fn sweep(&mut self, sweeps: &mut Sweeps, t: f64, to: f64, eps: f64) -> f64 {
+        let mut t = t;
+        for _ in 0..ROUNDS {
+            if t < sweeps.after || !(self.a.has_corners() && self.b.has_corners()) {
                 break;
             }
-            kept -= 1;
+            let stand = self.stand(t);
+            let [w_a, w_b] = [&stand.a, &stand.b].map(|placed| placed.instant.angular_velocity.norm());
+            let fastest = w_a.max(w_b);
+            if fastest * (to - t) < TURN {
+                sweeps.after = f64::INFINITY;
+                break;
+            }
+
+            // the slower body stands where it is, unless it is nearly as fast
+            let swept = [w_a, w_b].map(|w| w >= ALSO * fastest);
+            let is_steady = |side: &Side<'_>| side.motion.bounds(t, to).angular_acceleration == 0.0;
+            if !((!swept[0] || is_steady(&self.a)) && (!swept[1] || is_steady(&self.b))) {
+                break;
+            }
+            let level = 0.5 * eps.max(self.rounding(&stand));
+            let mut step = self.swept_step(sweeps, &stand, swept, level, to - t);
+            if step * fastest < SWEEPS && step < to - t && swept != [true; 2] {
+                step = step.max(self.circled_step(sweeps, &stand, level, to - t));
+            }
+            self.sweeps += 1;
+            if step >= to - t {
+                return to;
+            }
+            t += step;
+            if !(step * fastest >= SWEEPS) {
+                sweeps.after = t + PAUSE / fastest;
+                break;
+            }
         }
-        points[kept] = [z, r];
-        kept += 1;
+        t
     }
-    points.truncate(kept);
+
+    fn swept_step(&mut self, sweeps: &mut Sweeps, stand: &Stand, swept: [bool; 2], level: f64, left: f64) -> f64 {
+        let mut halves = [[None; 2]; 2];
+        let sides = [(&mut self.a, &stand.a, swept[0]), (&mut self.b, &stand.b, swept[1])];
+        for ((side, placed, swept), halves) in sides.into_iter().zip(&mut halves) {
+            *halves = match if swept { side.swept(placed) } else { None } {
+                Some(swept) => [0, 1].map(|half| swept.has(half).then_some(Some(half))),
+                None => [Some(None), None],
+            };
+        }
+
+        // every half is to stay apart from every half, by more than an approach takes for a rad
+        let fastest = stand.a.instant.angular_velocity.norm().max(stand.b.instant.angular_velocity.norm());
+        let least = stand.approach.norm() / fastest;
+        let mut step = left;
+        for (i, half_a) in halves[0].into_iter().enumerate().filter_map(|(i, half)| Some((i, half?))) {
+            for (j, half_b) in halves[1].into_iter().enumerate().filter_map(|(j, half)| Some((j, half?))) {
+                let direction = &mut sweeps.directions[2 * i + j];
+                let way = self.parted_step(direction, stand, [half_a, half_b], [least, level], left);
+                if way <= 0.0 {
+                    return 0.0;
+                }
+                step = step.min(way);
+            }
+        }
+        step
+    }
+
+    /// How long the body that spins faster stays apart from all that the other passes when, seen from it, it goes
+    /// around [s]: a direction that turns with the spinning body, for many turns of it.
+    fn circled_step(&mut self, sweeps: &mut Sweeps, stand: &Stand, level: f64, left: f64) -> f64 {
+        let (w_a, w_b) = (stand.a.instant.angular_velocity, stand.b.instant.angular_velocity);
+        let is_a = w_a.norm_squared() >= w_b.norm_squared();
+        let (side, placed, w, sign) = if is_a { (&self.a, &stand.a, w_a, 1.0) } else { (&self.b, &stand.b, w_b, -1.0) };
+        let (other, other_placed) = if is_a { (&self.b, &stand.b) } else { (&self.a, &stand.a) };
+        let (between, approach) = (sign * stand.between, sign * stand.approach);
+        let axis = w / w.norm();
+        let corners = other.corners.iter().flatten().map(|v| between + other_placed.rotation * v);
+        let circled = Swept::around(axis, corners);
+
+        // the direction is kept as it was seen from the axis
+        let first = sweeps.circled.unwrap_or_else(|| {
+            let length = between.norm();
+            if length > 0.0 { between / length } else { axis }
+        });
+        let mut lowest = |n: &Vector3| circled.farthest(0, &-n) - side.farthest(placed, None, n);
+        let least = approach.norm() / w.norm();
+        let found = parting(&first, least, &mut lowest);
+        sweeps.circled = found;
+        let Some(n) = found else { return 0.0 };
+
+        // whatever its phase, the other comes nearer no faster than this
+        let separation = n.dot(&lowest(&n)) - side.piece.rounding() - other.piece.rounding();
+        let along = n.dot(&axis);
+        let from_axis = |v: &Vector3| v.cross(&axis).norm();
+        let [bounds, other_bounds] = [side, other].map(|side| side.motion.bounds(stand.time, stand.time + left));
+        let rate = along * approach.dot(&axis)
+            - from_axis(&n) * from_axis(&approach)
+            - other_bounds.angular_speed * other.radius;
+        let bend = (other_bounds.acceleration - bounds.acceleration).norm() + bounds.deviation + other_bounds.deviation;
+        crossing(separation - stand.error - level, rate, bend).min(left)
+    }
+
+    /// How long a half of what is swept, or a body where it stands, stays apart from another [s].
+    fn parted_step(
+        &mut self,
+        direction: &mut Option<Vector3>,
+        stand: &Stand,
+        halves: [Option<usize>; 2],
+        [least, level]: [f64; 2],
+        left: f64,
+    ) -> f64 {
+        let (a, b) = (&self.a, &self.b);
+        let points =
+            |n: &Vector3| (a.farthest(&stand.a, halves[0], n), stand.between + b.farthest(&stand.b, halves[1], &-n));
+        let first = direction.unwrap_or_else(|| {
+            let length = stand.between.norm();
+            if length > 0.0 { stand.between / length } else { Vector3::x() }
+        });
+        let found = parting(&first, least, &mut |n| {
+            let (p, q) = points(n);
+            q - p
+        });
+        let Some(n) = found else { return 0.0 };
+        *direction = found;
+        let (p, q) = points(&n);
+        let heights = [n.dot(&p), -n.dot(&(q - stand.between))];
+        let parting = Parting { normal: n, heights, swept: halves.map(|half| half.is_some()) };
+
+        let (mut best, mut h) = (0.0_f64, left);
+        for _ in 0..TRIALS {
+            let proved = self.proved(stand, &parting, &Vector3::zeros(), level, h);
+            best = best.max(proved);
+            if proved >= NEARLY * h {
+                break;
+            }
+            h = (2.0 * proved).max(h / 16.0);
+        }
+        best
+    }
 }
 
-/// A unit direction along which a convex set is above the origin by at least half its distance; none where no
-/// direction is found along which it is above at all, or where its distance is below `least` [m]. `lowest` gives
-/// its lowest point along a direction [m].
-pub(super) fn parting(first: &Vector3, least: f64, lowest: &mut dyn FnMut(&Vector3) -> Vector3) -> Option<Vector3> {
-    // a mean of points of the set, and their weights
-    let mut points = [(lowest(first), 1.0); POINTS];
-    let mut mean = points[0].0;
-    let mut best = (first.dot(&mean), *first);
-    for count in 1..POINTS {
-        let length = mean.norm();
-        if length <= least || count > 8 && best.0 <= 0.0 {
-            return None;
-        }
-        if best.0 >= ENOUGH * length {
-            break;
-        }
-        let n = mean / length;
-        let low = lowest(&n);
-        if n.dot(&low) > best.0 {
-            best = (n.dot(&low), n);
-        }
-
-        // weight goes from the point that is highest to the new one, as much as brings the mean nearest
-        let weighed =
-            points[..count].iter().map(|(p, weight)| if *weight > 0.0 { n.dot(p) } else { f64::NEG_INFINITY });
-        let high = (0..count).zip(weighed).fold((0, f64::NEG_INFINITY), |top, p| if p.1 > top.1 { p } else { top }).0;
-        let way = low - points[high].0;
-        let part = (-mean.dot(&way) / way.norm_squared()).min(points[high].1);
-        if !(part > 0.0) {
-            break;
-        }
-        mean += part * way;
-        points[high].1 -= part;
-        points[count] = (low, part);
-    }
-    (best.0 > 0.0).then_some(best.1)
-}
-
-/// Points that a direction is found from [-]: most need two or three.
-const POINTS: usize = 12;
-/// Part of the distance that is good enough [-].
-const ENOUGH: f64 = 0.5;
-/// A body of more corners is not cut [-]: it is hardly a rod.
-const FEW: usize = 16;
-/// Radius of the cut, as a part of that which the hull of the ends would have, below which it is worth its while [-].
-const WAIST: f64 = 0.5;
+/// Angle left to turn from which on what is swept is looked at first [rad].
+const TURN: f64 = std::f64::consts::PI;
+/// A body is taken for all that it sweeps where it spins with this part of the faster one's rate [-].
+const ALSO: f64 = 0.25;
+/// Angle for which sweeps are not tried again after one that led nowhere [rad].
+const PAUSE: f64 = std::f64::consts::PI;
