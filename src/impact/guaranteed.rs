@@ -174,7 +174,7 @@ impl<'a> Search<'a> {
                     }
                     // what comes with speed is an impact; what hardly moves may be about to leave
                     let ahead = self.advance(&look, -eps_here, to - t, f64::INFINITY, TRIALS);
-                    if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
+                    if !self.is_still(&look, ahead, to - t, SLOW * eps_here) {
                         return Ok(self.found(Outcome::At, t, round));
                     }
                     (phase, stays) = (Phase::Grazing(t), 0);
@@ -201,13 +201,13 @@ impl<'a> Search<'a> {
                 stays += 1;
             }
             match phase {
-                Phase::Leaving(_) if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
+                Phase::Leaving(_) if stays > STAYS || !self.is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
                     let outcome =
                         if t > from && look.closest.lower > 0.0 { Outcome::At } else { Outcome::AlreadyTouching };
                     return Ok(self.found(outcome, t, round));
                 }
                 Phase::Grazing(since)
-                    if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
+                    if stays > STAYS || !self.is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
                 {
                     return Ok(self.found(Outcome::At, since, round));
                 }
@@ -280,9 +280,12 @@ impl<'a> Search<'a> {
         f64::EPSILON * (NEAR_UNITS * near + FAR_UNITS * (far + turned))
     }
 
-    /// Whether a proved step is longer than what comes with speed would take for this way [m].
-    fn is_still(look: &Look, step: f64, left: f64, way: f64) -> bool {
-        step >= left || step * look.stand.speed >= way
+    /// Whether a proved step is longer than what comes with speed, or is driven, would take for this way [m].
+    fn is_still(&self, look: &Look, step: f64, left: f64, way: f64) -> bool {
+        let t = look.stand.time;
+        let [a, b] = [&self.a, &self.b].map(|side| side.motion.bounds(t, t + step));
+        let drive = (b.acceleration - a.acceleration).norm() + a.deviation + b.deviation;
+        step >= left || step * (look.stand.speed + step * drive) >= way
     }
 
     /// About how long what turning does to the gap takes to close it [s].

@@ -68,7 +68,8 @@ impl<'a> Side<'a> {
         self.swept.as_ref()
     }
 
-    /// The point farthest along `d`, from the moving point [m]: of half of what is swept, or of the body itself.
+    /// A point as good as farthest along `d`, from the moving point [m]: of half of what is swept, or of the body
+    /// itself.
     pub(super) fn farthest(&self, placed: &Placed, half: Option<usize>, d: &Vector3) -> Vector3 {
         if let (Some(half), Some(swept)) = (half, &self.swept) {
             return swept.farthest(half, d);
@@ -82,6 +83,14 @@ impl<'a> Side<'a> {
             }
         }
         placed.rotation * top.1
+    }
+
+    /// The support of the same along `d`, from the moving point [m].
+    pub(super) fn height_of(&mut self, placed: &Placed, half: Option<usize>, d: &Vector3) -> f64 {
+        match (half, &self.swept) {
+            (Some(half), Some(swept)) => swept.height_of(half, d),
+            _ => self.height(placed, d),
+        }
     }
 
     /// Direction of an edge, world axes.

@@ -130,7 +130,8 @@ impl Search<'_> {
         let Some(n) = found else { return 0.0 };
 
         // whatever its phase, the other comes nearer no faster than this
-        let separation = n.dot(&lowest(&n)) - side.piece.rounding() - other.piece.rounding();
+        let rounding = side.piece.rounding() + other.piece.rounding();
+        let separation = -circled.height_of(0, &-n) - n.dot(&side.farthest(placed, None, &n)) - rounding;
         let along = n.dot(&axis);
         let from_axis = |v: &Vector3| v.cross(&axis).norm();
         let [bounds, other_bounds] = [side, other].map(|side| side.motion.bounds(stand.time, stand.time + left));
@@ -151,20 +152,16 @@ impl Search<'_> {
         left: f64,
     ) -> f64 {
         let (a, b) = (&self.a, &self.b);
-        let points =
-            |n: &Vector3| (a.farthest(&stand.a, halves[0], n), stand.between + b.farthest(&stand.b, halves[1], &-n));
         let first = direction.unwrap_or_else(|| {
             let length = stand.between.norm();
             if length > 0.0 { stand.between / length } else { Vector3::x() }
         });
         let found = parting(&first, least, &mut |n| {
-            let (p, q) = points(n);
-            q - p
+            stand.between + b.farthest(&stand.b, halves[1], &-n) - a.farthest(&stand.a, halves[0], n)
         });
         let Some(n) = found else { return 0.0 };
         *direction = found;
-        let (p, q) = points(&n);
-        let heights = [n.dot(&p), -n.dot(&(q - stand.between))];
+        let heights = [self.a.height_of(&stand.a, halves[0], &n), self.b.height_of(&stand.b, halves[1], &-n)];
         let parting = Parting { normal: n, heights, swept: halves.map(|half| half.is_some()) };
 
         let (mut best, mut h) = (0.0_f64, left);

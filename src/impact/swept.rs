@@ -69,8 +69,13 @@ impl Swept {
 
     /// Its support along `d` [m].
     pub(super) fn height(&self, d: &Vector3) -> f64 {
+        self.height_of(0, d).max(self.height_of(1, d))
+    }
+
+    /// The support of a half along `d` [m].
+    pub(super) fn height_of(&self, half: usize, d: &Vector3) -> f64 {
         let (along, from) = (d.dot(&self.axis), d.cross(&self.axis).norm());
-        self.halves.iter().flatten().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
+        self.halves[half].iter().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Whether anything is in a half.
@@ -78,18 +83,22 @@ impl Swept {
         !self.halves[half].is_empty()
     }
 
-    /// The point of a half that is farthest along `d`, from the moving point [m].
+    /// A point of a half that is as good as farthest along `d`, from the moving point [m]: good for a guess, since
+    /// near the axis its direction from the axis is lost in rounding.
     pub(super) fn farthest(&self, half: usize, d: &Vector3) -> Vector3 {
         let along = d.dot(&self.axis);
         let out = d - along * self.axis;
         let from = out.norm();
-        let height = |[z, r]: &[f64; 2]| z * along + r * from;
-        let top = self.halves[half].iter().fold([0.0, 0.0, f64::NEG_INFINITY], |top, p| {
-            let h = height(p);
-            if h > top[2] { [p[0], p[1], h] } else { top }
-        });
+        let mut top = (f64::NEG_INFINITY, [0.0; 2]);
+        for &[z, r] in &self.halves[half] {
+            let height = z * along + r * from;
+            if height > top.0 {
+                top = (height, [z, r]);
+            }
+        }
+        let [z, r] = top.1;
         let out = if from > 0.0 { out / from } else { out };
-        top[0] * self.axis + top[1] * out
+        z * self.axis + r * out
     }
 }
 
@@ -164,3 +173,93 @@ const ENOUGH: f64 = 0.5;
 const FEW: usize = 16;
 /// Radius of the cut, as a part of that which the hull of the ends would have, below which it is worth its while [-].
 const WAIST: f64 = 0.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impact::Instant;
+    use crate::math::{Matrix3, Pose, Vector3, quaternion};
+
+    fn spinning(spin: Vector3) -> Placed {
+        let instant = Instant {
+            pose: Pose::identity(),
+            center: Vector3::zeros(),
+            velocity: Vector3::zeros(),
+            angular_velocity: spin,
+        };
+        Placed { instant, rotation: Matrix3::identity() }
+    }
+
+    /// The corners of a rod along x and, first, of one that is not cut.
+    fn bodies() -> [Vec<Vector3>; 2] {
+        let corners =
+            |h: [f64; 3]| (0..8).map(move |k| Vector3::from_fn(|i, _| h[i] * f64::from((k >> i & 1) * 2 - 1)));
+        [corners([0.5, 0.4, 0.3]).collect(), corners([1.0, 0.02, 0.03]).collect()]
+    }
+
+    #[test]
+    fn what_is_swept_holds_the_body_at_every_angle_and_no_more() {
+        for (corners, spin) in bodies().iter().zip([Vector3::new(1.0, 2.0, -3.0), Vector3::new(5.0, 0.0, 5.0)]) {
+            let swept = Swept::new(corners, &spinning(spin));
+            let axis = spin.normalize();
+            for d in [Vector3::x(), Vector3::new(0.3, -0.5, 0.8), axis, -axis, Vector3::new(-1.0, 0.2, 0.9)] {
+                // of 3600 angles the best misses the top by less than 0.05°, 4e-7 of the radius
+                let turned = |k: u32| quaternion::exp(&(f64::from(k) * 1.745329251994330e-3 * axis));
+                let tops = (0..3600).map(turned).flat_map(|q| corners.iter().map(move |v| quaternion::rotate(&q, v)));
+                let top = tops.map(|v| d.dot(&v)).fold(f64::NEG_INFINITY, f64::max);
+                let height = swept.height(&d);
+                assert!((-1e-14..1e-6).contains(&(height - top)), "{d}: {height} {top}");
+                for half in [0, 1].into_iter().filter(|half| swept.has(*half) && d.cross(&axis).norm() > 0.1) {
+                    let (point, height) = (d.dot(&swept.farthest(half, &d)), swept.height_of(half, &d));
+                    assert!((point - height).abs() < 1e-14, "{d}: {point} {height}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_rod_that_spins_askew_is_cut_at_its_waist_and_a_block_is_not() {
+        let [block, rod] = bodies();
+        assert!(!Swept::new(&block, &spinning(Vector3::new(1.0, 2.0, -3.0))).has(1));
+        let swept = Swept::new(&rod, &spinning(Vector3::new(1.0, 0.0, 1.0)));
+        let axis = Vector3::new(1.0, 0.0, 1.0).normalize();
+        // beside the waist, within the hull of both ends, which are √½ from the axis
+        let beside = 0.3 * Vector3::y();
+        for (half, up) in [(0, -1.0), (1, 1.0)] {
+            assert!(swept.has(half));
+            let d = (Vector3::y() - up * axis).normalize();
+            assert!(swept.height_of(half, &d) < d.dot(&beside) - 0.1, "half {half}");
+        }
+        assert!(swept.height(&Vector3::y()) > 0.7);
+    }
+
+    #[test]
+    fn a_parting_direction_is_half_as_good_as_the_best_or_there_is_none() {
+        let [block, rod] = bodies();
+        for corners in [&block, &rod] {
+            for toward in [Vector3::new(0.3, -0.5, 0.8), Vector3::new(-1.0, 0.9, 0.2), Vector3::z()] {
+                for shift in [0.0, 0.9, 1.1, 2.0, 30.0] {
+                    // the box, moved by so much along a direction: its distance from the origin is closed
+                    let center = shift * toward;
+                    let h = corners[7];
+                    let distance = Vector3::from_fn(|i, _| (center[i].abs() - h[i]).max(0.0)).norm();
+                    let mut lowest = |n: &Vector3| {
+                        let lower = |v: &&Vector3, w: &&Vector3| n.dot(v).total_cmp(&n.dot(w));
+                        center + corners.iter().min_by(lower).unwrap()
+                    };
+                    let found = parting(&-Vector3::x(), 0.0, &mut lowest);
+                    if distance == 0.0 {
+                        assert!(found.is_none(), "{toward} {shift}");
+                    } else if let Some(n) = found {
+                        let height = n.dot(&lowest(&n));
+                        assert!(height > 0.0 && height <= distance + 1e-15, "{toward} {shift}: {height} {distance}");
+                        assert!(distance < 0.1 || height >= 0.5 * distance, "{toward} {shift}: {height} {distance}");
+                    } else {
+                        assert!(distance < 0.1, "{toward} {shift}: {distance}");
+                    }
+                    assert!(parting(&-Vector3::x(), distance + 35.0, &mut lowest).is_none());
+                }
+            }
+        }
+    }
+}
