@@ -57,8 +57,8 @@ impl Search<'_> {
 
             // the slower body stands where it is, unless it is nearly as fast
             let swept = [w_a, w_b].map(|w| w >= ALSO * fastest);
-            let is_steady = |side: &Side<'_>| side.motion.bounds(t, to).angular_acceleration == 0.0;
-            if !((!swept[0] || is_steady(&self.a)) && (!swept[1] || is_steady(&self.b))) {
+            let changes = |side: &Side<'_>| side.motion.bounds(t, to).angular_acceleration != 0.0;
+            if swept[0] && changes(&self.a) || swept[1] && changes(&self.b) {
                 break;
             }
             let level = 0.5 * eps.max(self.rounding(&stand));
@@ -71,7 +71,7 @@ impl Search<'_> {
                 return to;
             }
             t += step;
-            if !(step * fastest >= SWEEPS) {
+            if step == 0.0 || step * fastest < SWEEPS {
                 sweeps.after = t + PAUSE / fastest;
                 break;
             }

@@ -56,7 +56,7 @@ impl Swept {
             }
         }
         let waist = waist.sqrt();
-        if !(waist < WAIST * straight) {
+        if waist >= WAIST * straight {
             return None;
         }
         Some([false, true].map(|up| {
@@ -155,7 +155,7 @@ pub(super) fn parting(first: &Vector3, least: f64, lowest: &mut dyn FnMut(&Vecto
         let high = (0..count).zip(weighed).fold((0, f64::NEG_INFINITY), |top, p| if p.1 > top.1 { p } else { top }).0;
         let way = low - points[high].0;
         let part = (-mean.dot(&way) / way.norm_squared()).min(points[high].1);
-        if !(part > 0.0) {
+        if part.is_nan() || part <= 0.0 {
             break;
         }
         mean += part * way;
