@@ -27,112 +27,84 @@
 //! | edge, vertex | such that n stays perpendicular to the edge | |
 //! | any | 0 | far away, where n hardly matters |
 //!
+//! From there the search leaps on, where that can be proved from its far end backwards, with the same bound and
+//! time reversed: to where the two features meet if they stay the closest, which is found on their poses alone
+//! and is the impact then, or half as far again as the step. No query is made before the proof stands.
+//!
 //! For Ω = 0 a body's part of the bound may also be the plain one of Mirtich (1996), `τ |ω × n| r`, or
 //! for fast spins the support of all that it sweeps: of a steady spin the solid of revolution, else the
-//! ball of its radius. Whatever is least counts.
+//! ball of its radius. Whatever is least counts. Bodies that spin fast are looked at by `sweep` first.
 //!
 //! **What is proved.** `s` is proved positive on the whole way, so nothing is missed and nothing is late,
 //! up to the rounding of poses and supports, which `ε` is kept above. Rotation is bounded by `r`, the
 //! largest distance from the moving point.
 
-use super::motion::{Instant, MotionBounds, Moving};
+use super::motion::Moving;
+use super::side::{Part, Placed, Side};
+use super::sweep::Sweeps;
 use super::{Found, Outcome};
 use crate::closest::{Accuracy, ClosestFeatures, Feature, PairCache, Piece};
 use crate::error::Result;
-use crate::math::{Matrix3, Vector3, quaternion};
+use crate::math::Vector3;
 
-/// A convex body and its motion.
-struct Side<'a> {
-    piece: Piece<'a>,
-    motion: &'a dyn Moving,
-    /// From the moving point to the piece's centre, shape axes [m].
-    offset: Vector3,
-    /// Largest distance of the core from the moving point [m].
-    radius: f64,
-    /// Whether it is a half space: all of it on one side of a plane.
-    is_plane: bool,
-    /// Where the last climb ended.
-    vertex: u32,
-    /// What a steady spin sweeps.
-    swept: Option<Swept>,
-}
-
-/// The solid of revolution that a body fills when it spins: for each vertex how far along the axis and
-/// how far from it [m].
-struct Swept {
-    spin: Vector3,
-    axis: Vector3,
-    profile: Vec<[f64; 2]>,
-}
-
-impl Swept {
-    fn new(side: &Side<'_>, corners: &[Vector3], placed: &Placed) -> Self {
-        let spin = placed.instant.angular_velocity;
-        let axis = spin / spin.norm();
-        let axis_body = placed.rotation.tr_mul(&axis);
-        let along_and_from = |v: &Vector3| {
-            let v = v + side.offset;
-            [v.dot(&axis_body), v.cross(&axis_body).norm()]
-        };
-        Self { spin, axis, profile: corners.iter().map(along_and_from).collect() }
-    }
-
-    /// Its support along `d` [m].
-    fn height(&self, d: &Vector3) -> f64 {
-        let (along, from) = (d.dot(&self.axis), d.cross(&self.axis).norm());
-        self.profile.iter().map(|[z, r]| z * along + r * from).fold(f64::NEG_INFINITY, f64::max)
-    }
-}
-
-/// A body at an instant.
-struct Placed {
-    instant: Instant,
-    rotation: Matrix3,
-}
-
-impl<'a> Side<'a> {
-    fn new(piece: Piece<'a>, motion: &'a dyn Moving) -> Self {
-        let offset = piece.center - motion.center();
-        let is_plane = piece.plane().is_some();
-        let radius = if is_plane { 0.0 } else { offset.norm() + piece.reach - piece.rounding() };
-        Self { piece, motion, offset, radius, is_plane, vertex: 0, swept: None }
-    }
-
-    fn at(&self, t: f64) -> Placed {
-        let instant = self.motion.at(t);
-        Placed { rotation: quaternion::to_matrix(&instant.pose.orientation), instant }
-    }
-
-    /// The support `max d·(a − c)` of the core, from the moving point; of a half space its plane's.
-    fn height(&mut self, placed: &Placed, d: &Vector3) -> f64 {
-        let d = placed.rotation.tr_mul(d);
-        let about_center = if self.is_plane { 0.0 } else { self.piece.height(&d, &mut self.vertex) };
-        d.dot(&self.offset) + about_center
-    }
-
-    /// Direction of an edge, world axes.
-    fn edge(&self, placed: &Placed, edge: u32) -> Vector3 {
-        self.piece.edge(edge).map_or_else(Vector3::zeros, |e| placed.rotation * e)
-    }
-}
-
-/// The pair at an instant, and what the bounds are worked out from.
-struct Look {
-    time: f64,
-    closest: ClosestFeatures,
-    a: Placed,
-    b: Placed,
+/// The pair at an instant.
+pub(super) struct Stand {
+    pub(super) time: f64,
+    pub(super) a: Placed,
+    pub(super) b: Placed,
     /// From the moving point of A to that of B [m], and its rate [m/s].
-    between: Vector3,
-    approach: Vector3,
-    /// Supports of both along the normal [m].
-    heights: [f64; 2],
+    pub(super) between: Vector3,
+    pub(super) approach: Vector3,
     /// Rounding of a separation [m].
-    error: f64,
+    pub(super) error: f64,
     /// Largest speed of a point of one body as seen from the other [m/s].
     speed: f64,
+    /// Whether time runs backwards: all velocities have the other sign.
+    is_reversed: bool,
+}
+
+impl Stand {
+    /// The same with time running the other way.
+    fn reverse(&mut self) {
+        self.is_reversed = !self.is_reversed;
+        self.approach = -self.approach;
+        for instant in [&mut self.a.instant, &mut self.b.instant] {
+            (instant.velocity, instant.angular_velocity) = (-instant.velocity, -instant.angular_velocity);
+        }
+    }
+}
+
+/// A direction from A to B, and what it parts.
+pub(super) struct Parting {
+    pub(super) normal: Vector3,
+    /// Supports of both along it [m].
+    pub(super) heights: [f64; 2],
+    /// Whether these are of all that is swept.
+    pub(super) swept: [bool; 2],
+}
+
+/// The closest features at an instant, and what the bounds are worked out from.
+struct Look {
+    stand: Stand,
+    closest: ClosestFeatures,
+    parting: Parting,
     /// How fast the closest points approach along the normal [m/s].
     closing: f64,
+}
+
+impl Look {
+    fn features(&self) -> (Feature, Feature) {
+        (self.closest.feature_a, self.closest.feature_b)
+    }
+}
+
+/// The closest features of a look as they are at another time.
+struct Carried {
+    stand: Stand,
+    parting: Parting,
+    /// Separation of the two features [m], and of the bodies along the same direction [m], an error less.
+    gap: f64,
+    separation: f64,
 }
 
 /// What the search is about.
@@ -148,10 +120,15 @@ enum Phase {
 
 /// A search for the first impact of two bodies.
 pub(super) struct Search<'a> {
-    a: Side<'a>,
-    b: Side<'a>,
+    pub(super) a: Side<'a>,
+    pub(super) b: Side<'a>,
     cache: &'a mut PairCache,
     queries: u32,
+    /// How often what is swept was looked at.
+    pub(super) sweeps: u32,
+    /// Where the search began [s], and how far from the origin the moving points were then, together [m].
+    from: f64,
+    start: f64,
 }
 
 impl<'a> Search<'a> {
@@ -160,36 +137,44 @@ impl<'a> Search<'a> {
         b: (Piece<'a>, &'a dyn Moving),
         cache: &'a mut PairCache,
     ) -> Self {
-        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0 }
+        Self { a: Side::new(a.0, a.1), b: Side::new(b.0, b.1), cache, queries: 0, sweeps: 0, from: 0.0, start: 0.0 }
     }
 
     /// Searches `from..=to` [s] for the first gap in (0, `eps`] [m].
     pub(super) fn run(&mut self, from: f64, to: f64, eps: f64) -> Result<Found> {
-        let mut look = self.look(from)?;
-        let start = [look.a.instant.center.norm(), look.b.instant.center.norm()];
-        let mut eps_here = eps.max(self.rounding(&look, start, from));
+        let stand = self.stand(from);
+        self.from = from;
+        self.start = stand.a.instant.center.norm() + stand.b.instant.center.norm();
+        let mut sweeps = Sweeps::new(self, from, to);
+        let begin = self.sweep(&mut sweeps, from, to, eps);
+        if begin >= to {
+            return Ok(self.found(Outcome::Clear, to, 0));
+        }
+        let stand = if begin > from { self.stand(begin) } else { stand };
+        let mut look = self.look_at(stand)?;
+        let mut eps_here = eps.max(self.rounding(&look.stand));
         let gap = look.closest.signed_distance;
-        let mut phase = if gap > eps_here {
+        let mut phase = if gap > eps_here || begin > from {
             Phase::Free
         } else if gap < -eps_here {
             return Ok(self.found(Outcome::Overlap, from, 0));
         } else {
             // it may sink by what rounding hides, else not even the opening of the gap could be proved
-            Phase::Leaving((0.5 * look.closest.lower).min(gap - LEAST_SINK * look.error))
+            Phase::Leaving((0.5 * look.closest.lower).min(gap - LEAST_SINK * look.stand.error))
         };
         let mut stays = 0;
 
         for round in 0..ROUNDS {
             let gap = look.closest.signed_distance;
-            let t = look.time;
+            let t = look.stand.time;
             match phase {
                 Phase::Free if gap <= eps_here => {
                     if look.closest.lower <= 0.0 {
                         return Ok(self.found(Outcome::Stalled, t, round));
                     }
                     // what comes with speed is an impact; what hardly moves may be about to leave
-                    let ahead = self.advance(&look, -eps_here, to - t, TRIALS);
-                    if !Self::is_still(&look, ahead, to - t, SLOW * eps_here) {
+                    let ahead = self.advance(&look, -eps_here, to - t, f64::INFINITY, TRIALS);
+                    if !self.is_still(&look, ahead, to - t, SLOW * eps_here) {
                         return Ok(self.found(Outcome::At, t, round));
                     }
                     (phase, stays) = (Phase::Grazing(t), 0);
@@ -207,19 +192,22 @@ impl<'a> Search<'a> {
                 Phase::Leaving(floor) => floor,
                 Phase::Grazing(_) => -eps_here,
             };
-            let trials = if matches!(phase, Phase::Free) { TRIALS } else { TRIALS_WITHIN };
-            let step = self.advance(&look, level, to - t, trials);
+            let (first, trials) = match phase {
+                Phase::Free => (self.falls(&look), TRIALS),
+                _ => (f64::INFINITY, TRIALS_WITHIN),
+            };
+            let step = self.advance(&look, level, to - t, first, trials);
             if !matches!(phase, Phase::Free) {
                 stays += 1;
             }
             match phase {
-                Phase::Leaving(_) if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
+                Phase::Leaving(_) if stays > STAYS || !self.is_still(&look, step, to - t, LEAST_STAY * eps_here) => {
                     let outcome =
                         if t > from && look.closest.lower > 0.0 { Outcome::At } else { Outcome::AlreadyTouching };
                     return Ok(self.found(outcome, t, round));
                 }
                 Phase::Grazing(since)
-                    if stays > STAYS || !Self::is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
+                    if stays > STAYS || !self.is_still(&look, step, to - t, LEAST_STAY * eps_here) =>
                 {
                     return Ok(self.found(Outcome::At, since, round));
                 }
@@ -238,62 +226,92 @@ impl<'a> Search<'a> {
             if next <= t {
                 return Ok(self.found(Outcome::Stalled, t, round));
             }
-            look = self.look(next)?;
-            eps_here = eps.max(self.rounding(&look, start, from));
+            let stand = if !matches!(phase, Phase::Free) {
+                self.stand(next)
+            } else if let Some(stand) = self.leap(&look, step, to - t, eps_here) {
+                stand
+            } else {
+                let next = self.sweep(&mut sweeps, next, to, eps);
+                self.stand(next)
+            };
+            if matches!(phase, Phase::Free) && stand.time >= to {
+                return Ok(self.found(Outcome::Clear, to, round + 1));
+            }
+            look = self.look_at(stand)?;
+            eps_here = eps.max(self.rounding(&look.stand));
         }
-        Ok(self.found(Outcome::Stalled, look.time, ROUNDS))
+        Ok(self.found(Outcome::Stalled, look.stand.time, ROUNDS))
     }
 
-    fn found(&self, outcome: Outcome, time: f64, iterations: u32) -> Found {
-        Found { outcome, time, until: time, iterations, queries: self.queries }
+    fn found(&self, outcome: Outcome, time: f64, rounds: u32) -> Found {
+        Found { outcome, time, until: time, iterations: rounds + self.sweeps, queries: self.queries }
     }
 
-    /// The closest features at `t`, and what the bounds need.
-    fn look(&mut self, t: f64) -> Result<Look> {
+    /// The pair at `t`.
+    pub(super) fn stand(&self, t: f64) -> Stand {
         let (a, b) = (self.a.at(t), self.b.at(t));
-        let (pose_a, pose_b) = (&a.instant.pose, &b.instant.pose);
-        let closest = self.a.piece.closest(pose_a, &self.b.piece, pose_b, self.cache, Accuracy::Exact)?;
-        self.queries += 1;
-        let n = closest.normal;
-        let heights = [self.a.height(&a, &n), self.b.height(&b, &-n)];
         let between = b.instant.center - a.instant.center;
         let approach = b.instant.velocity - a.instant.velocity;
         let speed = approach.norm()
             + a.instant.angular_velocity.norm() * self.a.radius
             + b.instant.angular_velocity.norm() * self.b.radius;
-        let closing = n.dot(&(a.instant.velocity_at(&closest.point_a) - b.instant.velocity_at(&closest.point_b)));
         let error = SUPPORT_UNITS * f64::EPSILON * (between.norm() + self.a.radius + self.b.radius);
-        Ok(Look { time: t, closest, a, b, between, approach, heights, error, speed, closing })
+        Stand { time: t, a, b, between, approach, error, speed, is_reversed: false }
     }
 
-    /// Gap below which rounding decides at the time of a look [m].
-    fn rounding(&self, look: &Look, start: [f64; 2], from: f64) -> f64 {
-        let (a, b) = (&look.a.instant, &look.b.instant);
-        let turned = (look.time - from)
+    /// The closest features where the pair stands, and what the bounds need.
+    fn look_at(&mut self, stand: Stand) -> Result<Look> {
+        let (a, b) = (&stand.a.instant, &stand.b.instant);
+        let closest = self.a.piece.closest(&a.pose, &self.b.piece, &b.pose, self.cache, Accuracy::Exact)?;
+        self.queries += 1;
+        let normal = closest.normal;
+        let heights = [self.a.height(&stand.a, &normal), self.b.height(&stand.b, &-normal)];
+        let closing = normal.dot(&(a.velocity_at(&closest.point_a) - b.velocity_at(&closest.point_b)));
+        Ok(Look { stand, closest, parting: Parting { normal, heights, swept: [false; 2] }, closing })
+    }
+
+    /// Gap below which rounding decides [m].
+    pub(super) fn rounding(&self, stand: &Stand) -> f64 {
+        let (a, b) = (&stand.a.instant, &stand.b.instant);
+        let turned = (stand.time - self.from)
             * (a.angular_velocity.norm() * self.a.radius + b.angular_velocity.norm() * self.b.radius);
-        let near = look.between.norm() + self.a.radius + self.b.radius;
-        let far = a.center.norm() + b.center.norm() + start[0] + start[1];
+        let near = stand.between.norm() + self.a.radius + self.b.radius;
+        let far = a.center.norm() + b.center.norm() + self.start;
         f64::EPSILON * (NEAR_UNITS * near + FAR_UNITS * (far + turned))
     }
 
-    /// Whether a proved step is longer than what comes with speed would take for this way [m].
-    fn is_still(look: &Look, step: f64, left: f64, way: f64) -> bool {
-        step >= left || step * look.speed >= way
+    /// Whether a proved step is longer than what comes with speed, or is driven, would take for this way [m].
+    fn is_still(&self, look: &Look, step: f64, left: f64, way: f64) -> bool {
+        let t = look.stand.time;
+        let [a, b] = [&self.a, &self.b].map(|side| side.motion.bounds(t, t + step));
+        let drive = (b.acceleration - a.acceleration).norm() + a.deviation + b.deviation;
+        step >= left || step * (look.stand.speed + step * drive) >= way
+    }
+
+    /// About how long what turning does to the gap takes to close it [s].
+    fn falls(&self, look: &Look) -> f64 {
+        let bend = |side: &Side<'_>, placed: &Placed| side.radius * placed.instant.angular_velocity.norm_squared();
+        let bends = bend(&self.a, &look.stand.a) + bend(&self.b, &look.stand.b);
+        AHEAD * (look.closest.signed_distance / bends).sqrt()
     }
 
     /// The longest time from a look on, at most `left` [s], in which the separation is proved to stay
-    /// above `level` [m].
-    fn advance(&mut self, look: &Look, level: f64, left: f64, trials: u32) -> f64 {
+    /// above `level` [m]; `first` is how far ahead is tried first [s].
+    fn advance(&mut self, look: &Look, level: f64, left: f64, first: f64, trials: u32) -> f64 {
         // the proposal: where the line through the gap meets the level; no bound reaches beyond it
         let proposed = if look.closing > 0.0 { (look.closest.signed_distance - level) / look.closing } else { left };
         let proposed = if proposed < left { proposed.max(0.0) } else { left };
 
         let mut best = 0.0_f64;
-        for turning in self.turnings(look).into_iter().flatten() {
-            let mut h = proposed;
+        for turning in self.turnings(&look.stand, look.features(), &look.parting.normal).into_iter().flatten() {
+            let mut h = if first > 0.0 && first < proposed { first } else { proposed };
             for _ in 0..trials {
-                let proved = self.proved(look, &turning, level, h);
+                let proved = self.proved(&look.stand, &look.parting, &turning, level, h);
                 best = best.max(proved);
+                if proved >= h && h < proposed {
+                    h = (4.0 * h).min(proposed);
+                    continue;
+                }
                 if proved >= NEARLY * h {
                     break;
                 }
@@ -306,10 +324,111 @@ impl<'a> Search<'a> {
         best
     }
 
+    /// A time beyond a proved `step`, `left` at most [s], up to which the way is free too: where the features of the
+    /// look, carried along, meet the level, or as far again as the step. It is proved from there backwards.
+    fn leap(&mut self, look: &Look, step: f64, left: f64, eps: f64) -> Option<Stand> {
+        let level = 0.5 * eps;
+        let way = look.closest.signed_distance - AIM * eps;
+        let line = if look.closing > 0.0 { way / look.closing } else { f64::INFINITY };
+        let far = line.min(LEAP * step).min(left);
+        if far < LEAST_LEAP * step {
+            return None;
+        }
+        let mut there = self.carried(look, far)?;
+
+        // the features meet if they stay the closest
+        if far == line && (there.gap - there.separation).abs() <= 2.0 * there.stand.error {
+            there = self.carried_root(look, far, there, AIM * eps, 0.25 * eps, left)?;
+        }
+        if there.separation <= level || there.gap < 0.0 {
+            return None;
+        }
+
+        // what the step leaves
+        let rest = there.stand.time - look.stand.time - step;
+        let n = there.parting.normal;
+        there.stand.reverse();
+        let turnings = self.turnings(&there.stand, look.features(), &n);
+        let is_free = rest <= 0.0
+            || turnings
+                .into_iter()
+                .flatten()
+                .any(|turning| self.proved(&there.stand, &there.parting, &turning, level, rest) >= rest);
+        there.stand.reverse();
+        is_free.then_some(there.stand)
+    }
+
+    /// The features of a look at the time `ahead` after it [s]; none where they have no direction.
+    fn carried(&mut self, look: &Look, ahead: f64) -> Option<Carried> {
+        let (old, new) = (&look.stand, self.stand(look.stand.time + ahead));
+        let turned_a = |v: &Vector3| new.a.rotation * old.a.rotation.tr_mul(v);
+        let turned_b = |v: &Vector3| new.b.rotation * old.b.rotation.tr_mul(v);
+        let (n, radii) = (&look.parting.normal, [self.a.piece.rounding(), self.b.piece.rounding()]);
+        let p = turned_a(&(look.closest.point_a - radii[0] * n - old.a.instant.center));
+        let q = turned_b(&(look.closest.point_b + radii[1] * n - old.b.instant.center));
+        let between = new.between + q - p;
+
+        let across = |e: &Vector3| between - (between.dot(e) / e.norm_squared()) * e;
+        let normal = match look.features() {
+            (Feature::Face(_), _) => turned_a(n),
+            (_, Feature::Face(_)) => turned_b(n),
+            (Feature::Edge(i), Feature::Edge(j)) => {
+                let across_old = self.a.edge(&old.a, i).cross(&self.b.edge(&old.b, j));
+                let across_new = self.a.edge(&new.a, i).cross(&self.b.edge(&new.b, j));
+                across_new * across_old.dot(n).signum()
+            }
+            (Feature::Edge(i), Feature::Vertex(_)) => across(&self.a.edge(&new.a, i)),
+            (Feature::Vertex(_), Feature::Edge(j)) => across(&self.b.edge(&new.b, j)),
+            (Feature::Vertex(_), Feature::Vertex(_)) => between,
+            _ => return None,
+        };
+        let length = normal.norm();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let normal = normal / length;
+        let rounding = radii[0] + radii[1];
+        let heights = [self.a.height(&new.a, &normal), self.b.height(&new.b, &-normal)];
+        let separation = normal.dot(&new.between) - heights[0] - heights[1] - rounding - new.error;
+        let gap = normal.dot(&between) - rounding;
+        Some(Carried { stand: new, parting: Parting { normal, heights, swept: [false; 2] }, gap, separation })
+    }
+
+    /// The features of a look where their gap is `aim`, but for `off` [m], by the secant; `first` is a guess.
+    fn carried_root(
+        &mut self,
+        look: &Look,
+        guess: f64,
+        first: Carried,
+        aim: f64,
+        off: f64,
+        left: f64,
+    ) -> Option<Carried> {
+        let (mut last, mut time, mut there) = ((0.0, look.closest.signed_distance), guess, first);
+
+        // the first correction knows the rate at the look
+        let (way, closing) = (last.1 - aim, look.closing);
+        let bend = (there.gap - last.1 + closing * time) / (time * time);
+        let root = closing * closing - 4.0 * bend * way;
+        let mut next = if root >= 0.0 { 2.0 * way / (closing + root.sqrt()) } else { return None };
+        for _ in 0..ROOT {
+            if (there.gap - aim).abs() <= off {
+                return Some(there);
+            }
+            if !(next > 0.0 && next < left) {
+                return None;
+            }
+            last = (time, there.gap);
+            time = next;
+            there = self.carried(look, time)?;
+            next = time - (there.gap - aim) * (time - last.0) / (there.gap - last.1);
+        }
+        None
+    }
+
     /// The angular velocities that the direction may turn with.
-    fn turnings(&self, look: &Look) -> [Option<Vector3>; 2] {
-        let n = &look.closest.normal;
-        let (w_a, w_b) = (look.a.instant.angular_velocity, look.b.instant.angular_velocity);
+    fn turnings(&self, stand: &Stand, features: (Feature, Feature), n: &Vector3) -> [Option<Vector3>; 2] {
+        let (w_a, w_b) = (stand.a.instant.angular_velocity, stand.b.instant.angular_velocity);
         let zero = Vector3::zeros();
 
         // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
@@ -317,21 +436,21 @@ impl<'a> Search<'a> {
         if self.a.is_plane || self.b.is_plane {
             return [Some(if self.a.is_plane { w_a } else { w_b }), None];
         }
-        let natural = match (look.closest.feature_a, look.closest.feature_b) {
+        let natural = match features {
             (Feature::Face(_), _) => w_a,
             (_, Feature::Face(_)) => w_b,
             (Feature::Edge(i), Feature::Edge(j)) => {
-                let (e, f) = (self.a.edge(&look.a, i), self.b.edge(&look.b, j));
+                let (e, f) = (self.a.edge(&stand.a, i), self.b.edge(&stand.b, j));
                 let (p, q) = (along(&e, &w_a), along(&f, &w_b));
                 let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
                 n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
             }
             (Feature::Edge(i), Feature::Vertex(_)) => {
-                let e = self.a.edge(&look.a, i);
+                let e = self.a.edge(&stand.a, i);
                 n.cross(&(along(&e, &w_a) * e))
             }
             (Feature::Vertex(_), Feature::Edge(j)) => {
-                let f = self.b.edge(&look.b, j);
+                let f = self.b.edge(&stand.b, j);
                 n.cross(&(along(&f, &w_b) * f))
             }
             _ => zero,
@@ -343,111 +462,45 @@ impl<'a> Search<'a> {
     }
 
     /// How long from a look on, at most `h` [s], the bound with this Ω stays above `level` [m].
-    fn proved(&mut self, look: &Look, turning: &Vector3, level: f64, h: f64) -> f64 {
-        let n = &look.closest.normal;
-        let (t, to) = (look.time, look.time + h);
-        let [bounds_a, bounds_b] = [self.a.motion.bounds(t, to), self.b.motion.bounds(t, to)];
+    pub(super) fn proved(&mut self, stand: &Stand, parting: &Parting, turning: &Vector3, level: f64, h: f64) -> f64 {
+        let n = &parting.normal;
+        let t = stand.time;
+        let (from, to) = if stand.is_reversed { (t - h, t) } else { (t, t + h) };
+        let [bounds_a, bounds_b] = [self.a.motion.bounds(from, to), self.b.motion.bounds(from, to)];
 
         // the moving points
         let acceleration = bounds_b.acceleration - bounds_a.acceleration;
         let (size, deviation) = (acceleration.norm(), bounds_a.deviation + bounds_b.deviation);
         let rate = turning.cross(n);
         let (turning_size, rate_size) = (turning.norm(), rate.norm());
-        let fastest = look.approach.norm() + h * (size + deviation);
-        let farthest = look.between.norm() + h * fastest;
-        let mut start = n.dot(&look.between) - self.a.piece.rounding() - self.b.piece.rounding();
-        let mut end = start + h * (rate.dot(&look.between) + n.dot(&look.approach));
+        let fastest = stand.approach.norm() + h * (size + deviation);
+        let farthest = stand.between.norm() + h * fastest;
+        let mut start = n.dot(&stand.between) - self.a.piece.rounding() - self.b.piece.rounding();
+        let mut end = start + h * (rate.dot(&stand.between) + n.dot(&stand.approach));
         let mut bend =
             rate_size * (turning_size * farthest + 2.0 * fastest + h * size) + deviation - n.dot(&acceleration);
 
         // each body's part
         let resting = turning_size == 0.0;
-        for (side, placed, bounds, height, sign) in [
-            (&mut self.a, &look.a, &bounds_a, look.heights[0], 1.0),
-            (&mut self.b, &look.b, &bounds_b, look.heights[1], -1.0),
-        ] {
-            let part = side.part(placed, bounds, &(sign * n), height, turning, resting, h);
+        for (side, placed, bounds, k, sign) in
+            [(&mut self.a, &stand.a, &bounds_a, 0, 1.0), (&mut self.b, &stand.b, &bounds_b, 1, -1.0)]
+        {
+            let height = parting.heights[k];
+            let part = if parting.swept[k] {
+                Part { start: height, end: height, bend: 0.0 }
+            } else {
+                side.part(placed, bounds, &(sign * n), height, turning, resting, h)
+            };
             start -= part.start;
             end -= part.end;
             bend += part.bend;
         }
-        crossing(start - look.error - level, (end - start) / h, bend).min(h)
-    }
-}
-
-/// A body's part of the bound: its support is at most the chord from `start` to `end` plus `½ bend τ²`.
-struct Part {
-    start: f64,
-    end: f64,
-    bend: f64,
-}
-
-impl Side<'_> {
-    /// The part along `d` = ±n, which turns with Ω, over `h` [s].
-    #[expect(clippy::too_many_arguments, reason = "the symbols of one formula")]
-    fn part(
-        &mut self,
-        placed: &Placed,
-        bounds: &MotionBounds,
-        d: &Vector3,
-        height: f64,
-        turning: &Vector3,
-        resting: bool,
-        h: f64,
-    ) -> Part {
-        let w = &placed.instant.angular_velocity;
-        let r = self.radius;
-
-        // in axes that turn with Ω: a′ = ρ × a and a″ = ρ × (ρ × a) + ρ′ × a with ρ = ω − Ω
-        if self.is_plane && bounds.angular_acceleration > 0.0 {
-            return Part { start: height, end: f64::INFINITY, bend: 0.0 }; // a plane without end: nothing is proved
-        }
-        let relative = w - turning;
-        let across = relative.cross(d).norm();
-        let change = bounds.angular_acceleration * (1.0 + turning.norm() * h) + turning.cross(w).norm();
-        let drift = change * h;
-        let bend = r * ((across + drift) * (relative.norm() + drift) + change);
-
-        // without Ω: the plain bound, or all that is swept
-        let mut plain = f64::INFINITY;
-        if resting && !self.is_plane {
-            let fastest = (across + bounds.angular_acceleration * h).min(bounds.angular_speed);
-            plain = height + h * fastest * r;
-            let all = self.swept(placed, bounds, d, h);
-            if all <= plain && all <= height + 0.5 * bend * h * h {
-                return Part { start: all, end: all, bend: 0.0 };
-            }
-        }
-        let end = if across == 0.0 { height } else { self.height(placed, &(d + h * d.cross(&relative))) };
-        if plain < end + 0.5 * bend * h * h {
-            return Part { start: height, end: plain, bend: 0.0 };
-        }
-        Part { start: height, end, bend }
-    }
-}
-
-impl Side<'_> {
-    /// Support along `d` of all that the body sweeps in the time `h` [s], however it turns.
-    fn swept(&mut self, placed: &Placed, bounds: &MotionBounds, d: &Vector3, h: f64) -> f64 {
-        let w = &placed.instant.angular_velocity;
-        if bounds.angular_acceleration > 0.0 || h * bounds.angular_speed < SWEEPS {
-            return self.radius;
-        }
-        let swept = match self.swept.take().filter(|swept| swept.spin == *w) {
-            Some(swept) => swept,
-            None => match self.piece.corners() {
-                Some(corners) => Swept::new(self, &corners, placed),
-                None => return self.radius,
-            },
-        };
-        let height = swept.height(d);
-        self.swept = Some(swept);
-        height
+        crossing(start - stand.error - level, (end - start) / h, bend).min(h)
     }
 }
 
 /// The first root of `c + b τ − ½ k τ²`, for a positive start c; without one, infinity.
-fn crossing(c: f64, b: f64, k: f64) -> f64 {
+pub(super) fn crossing(c: f64, b: f64, k: f64) -> f64 {
     if c <= 0.0 || c.is_nan() {
         return 0.0;
     }
@@ -464,14 +517,16 @@ fn crossing(c: f64, b: f64, k: f64) -> f64 {
 }
 
 /// Rounds of a search [-]: a rod that turns 300 rad beside a wall takes some hundreds.
-const ROUNDS: u32 = 100_000;
+pub(super) const ROUNDS: u32 = 100_000;
+/// Where a bound is tried first [-].
+const AHEAD: f64 = 2.0;
 /// How often a bound is tried with another look ahead [-].
-const TRIALS: u32 = 4;
+pub(super) const TRIALS: u32 = 4;
 /// The same within ε [-]: what touches may leave in one point while another comes from nearby, and the
 /// look ahead must become short enough to tell them apart.
 const TRIALS_WITHIN: u32 = 16;
 /// A bound that proves so much of what it looked ahead is good enough [-].
-const NEARLY: f64 = 0.5;
+pub(super) const NEARLY: f64 = 0.5;
 /// Rounding of a separation from supports, in ε of the pair's size [-]: 29/2 of the radii and 10/2 of the
 /// distance as in the closest features, once for each end of the chord.
 const SUPPORT_UNITS: f64 = 32.0;
@@ -481,8 +536,14 @@ const NEAR_UNITS: f64 = 144.0;
 /// The same of coordinates and of the way that turning takes [-]: a sum of positions, a product of rate
 /// and time.
 const FAR_UNITS: f64 = 8.0;
-/// Angle from which on a spin is taken for all that it sweeps [rad].
-const SWEEPS: f64 = 1.0;
+/// The gap that is aimed at, in ε [-]: between the level that is proved and what counts as contact.
+const AIM: f64 = 0.75;
+/// How far a leap reaches, in proved steps [-]: what bends the bound forwards does so backwards.
+const LEAP: f64 = 1.6;
+/// A leap that is shorter is not worth its while, in proved steps [-].
+const LEAST_LEAP: f64 = 1.0;
+/// Rounds of the secant for where features meet [-].
+const ROOT: u32 = 8;
 /// A step from within ε that is not longer than this many ε at the pair's speed ends in approach [-].
 const LEAST_STAY: f64 = 10.0;
 /// A pair that takes longer than this many ε at its speed to cross ε may be grazing [-].

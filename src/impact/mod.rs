@@ -17,6 +17,9 @@ mod ends;
 mod guaranteed;
 pub mod motion;
 mod secant;
+mod side;
+mod sweep;
+mod swept;
 
 pub use ends::Found;
 pub use motion::{Instant, Motion, MotionBounds, Moving};
@@ -147,12 +150,13 @@ pub fn time_of_impact<'a, 'b>(
     }
     let (a, b) = ((a.into(), motion_a), (b.into(), motion_b));
     let eps = eps.unwrap_or(IMPACT_GAP * (a.0.size() + b.0.size()));
-    let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps)?;
-    let closest = between(a, b, time, &mut PairCache::new())?;
+    let mut cache = PairCache::new();
+    let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps, &mut cache)?;
+    let closest = between(a, b, time, &mut cache)?;
     Ok(Impact { outcome, time, iterations, queries, closest })
 }
 
-/// The search over `from..=to` [s] by any finder.
+/// The search over `from..=to` [s] by any finder; the cache is left with its last query.
 pub(crate) fn first_impact_by(
     finder: Finder,
     a: (Collidable<'_>, &dyn Moving),
@@ -160,13 +164,14 @@ pub(crate) fn first_impact_by(
     from: f64,
     to: f64,
     eps: f64,
+    cache: &mut PairCache,
 ) -> Result<Found> {
     if finder == Finder::Guaranteed {
-        return first_impact(a, b, from, to, eps);
+        return first_impact(a, b, from, to, eps, cache);
     }
     // the first pose that cannot be queried is remembered: the finders see numbers only
-    let (mut cache, mut refused) = (PairCache::new(), None);
-    let gap = |t: f64| match between(a, b, from + t, &mut cache) {
+    let mut refused = None;
+    let gap = |t: f64| match between(a, b, from + t, cache) {
         Ok(closest) => closest.signed_distance,
         Err(error) => {
             refused.get_or_insert(error);
@@ -187,12 +192,13 @@ pub(crate) fn first_impact(
     from: f64,
     to: f64,
     eps: f64,
+    cache: &mut PairCache,
 ) -> Result<Found> {
     let mut first = Found { outcome: Outcome::Clear, time: to, until: to, iterations: 0, queries: 0 };
     for i in 0..a.pieces() {
         for j in 0..b.pieces() {
-            let mut cache = PairCache::new();
-            let mut search = guaranteed::Search::new((a.piece(i), motion_a), (b.piece(j), motion_b), &mut cache);
+            *cache = PairCache::new();
+            let mut search = guaranteed::Search::new((a.piece(i), motion_a), (b.piece(j), motion_b), cache);
             let found = search.run(from, first.time, eps)?;
             first.iterations += found.iterations;
             first.queries += found.queries;
@@ -227,7 +233,7 @@ pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Fi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Pose, Vector3};
+    use crate::math::{Pose, Vector3, quaternion};
     use crate::shape::convex_polyhedron::ConvexPolyhedron;
 
     fn cuboid(h: [f64; 3]) -> ConvexPolyhedron {
@@ -328,6 +334,70 @@ mod tests {
             assert_eq!(end(gap, [0.3, 0.1, 0.0], [0.0; 3]), Outcome::Clear, "{gap:e}");
         }
         assert_eq!(end(-0.1, [0.0, 0.0, 2.0], [0.0; 3]), Outcome::Overlap);
+    }
+
+    /// Rises as `t³ (1 − t)` along z, without turning.
+    struct Rises(Vector3);
+
+    impl Moving for Rises {
+        fn center(&self) -> Vector3 {
+            Vector3::zeros()
+        }
+
+        fn at(&self, t: f64) -> Instant {
+            let pose = at(self.0.x, self.0.y, self.0.z + t * t * t * (1.0 - t));
+            let velocity = Vector3::z() * (t * t * (3.0 - 4.0 * t));
+            Instant { pose, center: pose.position, velocity, angular_velocity: Vector3::zeros() }
+        }
+
+        fn bounds(&self, from: f64, to: f64) -> MotionBounds {
+            let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+            let third = (6.0 - 24.0 * from).abs().max((6.0 - 24.0 * to).abs());
+            let acceleration = Vector3::z() * (middle * (6.0 - 12.0 * middle));
+            MotionBounds { acceleration, deviation: half * third, ..MotionBounds::uniform(0.0) }
+        }
+    }
+
+    #[test]
+    fn bodies_that_part_with_the_third_derivative_alone_are_followed_to_where_they_meet_again() {
+        // gap = t³ (1 − t): neither a speed nor an acceleration opens it, and it closes at t = 1 with speed 1
+        let (cube, rests) = (cuboid([0.5; 3]), Motion::resting(Pose::identity()));
+        for gap in [0.0, 1e-13, 1e-12] {
+            let rises = Rises(Vector3::new(0.1, 0.2, 1.0 + gap));
+            let found = time_of_impact(&cube, &rests, &cube, &rises, 1.5, None, Finder::Guaranteed).unwrap();
+            assert_eq!(found.outcome, Outcome::At, "{gap:e}: {found:?}");
+            // ε of both radii is 1.7e-12 m, at 1 m/s
+            assert!((found.time - 1.0).abs() < 4e-12, "{gap:e}: {:e}", found.time - 1.0);
+        }
+    }
+
+    #[test]
+    fn a_rod_that_spins_beside_a_body_is_proved_free_for_many_turns_at_once() {
+        // the rod sweeps the cone |z| = √(x² + y²) up to z = √½, give or take its thickness
+        let rod = cuboid([1.0, 0.02, 0.02]);
+        let tilt = quaternion::exp(&Vector3::new(0.0, -std::f64::consts::FRAC_PI_4, 0.0));
+        let spins = Motion::new(Pose { position: Vector3::zeros(), orientation: tilt }, [0.0; 3], [0.0, 0.0, 300.0]);
+        let end = |center: [f64; 3], velocity: [f64; 3], spin: [f64; 3]| {
+            let cube = cuboid([0.1; 3]);
+            let passes = Motion::new(at(center[0], center[1], center[2]), velocity, spin);
+            guaranteed(&rod, &spins, &cube, &passes, 1.0)
+        };
+        // in the funnel, beside the waist, and above all
+        for (center, velocity) in [
+            ([0.05, 0.0, 0.6], [-0.1, 0.0, 0.0]),
+            ([0.5, 0.05, 0.0], [0.0, -0.1, 0.0]),
+            ([-0.3, 0.0, 1.0], [0.6, 0.0, 0.0]),
+        ] {
+            let found = end(center, velocity, [0.0, 0.0, 0.4]);
+            assert_eq!(found.outcome, Outcome::Clear, "{center:?}");
+            assert!(found.queries <= 4, "{center:?}: {} queries", found.queries);
+        }
+        // down into the funnel: the cube's edge meets the rod near where its lower corners reach the cone
+        let found = end([0.0, 0.0, 0.6], [0.0, 0.0, -0.5], [0.0; 3]);
+        assert_eq!(found.outcome, Outcome::At);
+        let corner = 0.6 - 0.1 - 0.5 * found.time;
+        assert!((0.02..0.2).contains(&corner), "{corner}");
+        assert!(found.closest.lower > 0.0);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use super::near::{Due, What};
 use super::path::Path;
 use super::{Failure, Simulation, SimulationError};
+use crate::closest::PairCache;
 use crate::contact::broad_phase::Aabb;
 use crate::error::Error;
 use crate::impact::{Found, Moving, Outcome, first_impact_by};
@@ -197,7 +198,7 @@ impl Simulation {
             let found = {
                 let (path_a, path_b) = (self.path(a, now), self.path(b, now));
                 let pair = ((shape_a.into(), &path_a as &dyn Moving), (shape_b.into(), &path_b as &dyn Moving));
-                first_impact_by(self.plan.options().finder, pair.0, pair.1, from, until, eps)
+                first_impact_by(self.plan.options().finder, pair.0, pair.1, from, until, eps, &mut PairCache::new())
             };
             let refused = |error: Error| self.failure_of(&[a, b], now, Failure::Refused(error.to_string()));
             let Found { outcome, time, iterations: rounds, until: searched, .. } = found.map_err(refused)?;

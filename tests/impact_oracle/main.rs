@@ -4,10 +4,11 @@
 //! nonlinear cast in the same process:
 //!
 //! ```text
-//! PAIRS=125000 cargo test --release --test impact_oracle -- --ignored --nocapture
+//! PAIRS=125000 cargo test --release --all-features --test impact_oracle -- --ignored --nocapture
 //! ```
 //!
-//! which is 125,000 pairs of each family.
+//! which is 125,000 pairs of each family. In pieces, with one family's name: `FAMILY=graze`. What is found is in
+//! [`benches/results/impact.md`](../../benches/results/impact.md).
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot set itself up has failed")]
 #![allow(clippy::disallowed_methods, reason = "no bits are promised of tests")]
@@ -39,6 +40,7 @@ struct Tally {
     iterations: u64,
     most_iterations: u32,
     widest_gap: f64,
+    least_gap: f64,
     times: Vec<u64>,
     parry_times: Vec<u64>,
     parry_missed: usize,
@@ -65,13 +67,15 @@ fn judge(name: &str, number: usize, case: &Case, found: &Impact, tally: &mut Tal
     tally.iterations += u64::from(found.iterations);
     tally.most_iterations = tally.most_iterations.max(found.iterations);
     let eps = eps(case, found.time);
-    let (gap, _, upper) = oracle::gap(case, found.time);
+    let (gap, lower, upper) = oracle::gap(case, found.time);
     match found.outcome {
         Outcome::At | Outcome::Grazing => {
             // at the answer the gap is within (0, ε], and nothing was touched before
             assert!(upper > 0.0 && gap <= eps, "{}: gap {gap:e}, ε {eps:e}", label());
             assert!(found.closest.lower > 0.0, "{}", label());
-            tally.widest_gap = tally.widest_gap.max(gap / (case.a.radius() + case.b.radius()));
+            let size = case.a.radius() + case.b.radius();
+            tally.widest_gap = tally.widest_gap.max(gap / size);
+            tally.least_gap = tally.least_gap.min(lower / size);
             match oracle::is_free(case, found.time, PIECES) {
                 Verdict::Free => {}
                 Verdict::Undecided(_) => tally.undecided += 1,
@@ -92,7 +96,7 @@ fn judge(name: &str, number: usize, case: &Case, found: &Impact, tally: &mut Tal
 
 fn run((name, family): &Family, pairs: usize, times: bool) -> Tally {
     let mut random = random(name);
-    let mut tally = Tally::default();
+    let mut tally = Tally { least_gap: f64::INFINITY, ..Tally::default() };
     for number in 0..pairs {
         let case = family(&mut random);
         let start = Instant::now();
@@ -134,8 +138,10 @@ fn no_impact_is_missed_and_none_is_late() {
 #[ignore = "minutes; see the module"]
 fn a_million_pairs() {
     let pairs = std::env::var("PAIRS").map_or(2000, |n| n.parse().unwrap());
+    let only = std::env::var("FAMILY").ok();
+    assert!(only.as_ref().is_none_or(|only| FAMILIES.iter().any(|family| family.0 == only)), "no family {only:?}");
     println!(
-        "{:<15} {:>7} {:>7} {:>7} {:>6} {:>7} {:>6} {:>9} | {:>8} {:>8} | {:>8} {:>8} {:>6} {:>6} {:>6} {:>6}",
+        "{:<15} {:>7} {:>7} {:>7} {:>6} {:>7} {:>6} {:>9} {:>9} | {:>8} {:>8} | {:>8} {:>8} {:>6} {:>6} {:>6} {:>6}",
         "family",
         "pairs",
         "hits",
@@ -143,6 +149,7 @@ fn a_million_pairs() {
         "undec.",
         "rounds",
         "most",
+        "least gap",
         "gap/size",
         "median",
         "p99",
@@ -153,10 +160,10 @@ fn a_million_pairs() {
         "false",
         "failed"
     );
-    for family in FAMILIES {
+    for family in FAMILIES.iter().filter(|family| only.as_ref().is_none_or(|only| only == family.0)) {
         let t = run(family, pairs, true);
         println!(
-            "{:<15} {:>7} {:>7} {:>7} {:>6} {:>7.2} {:>6} {:>9.1e} | {:>8.2} {:>8.2} | {:>8.2} {:>8.2} {:>6} {:>6} {:>6} {:>6}",
+            "{:<15} {:>7} {:>7} {:>7} {:>6} {:>7.2} {:>6} {:>9.1e} {:>9.1e} | {:>8.2} {:>8.2} | {:>8.2} {:>8.2} {:>6} {:>6} {:>6} {:>6}",
             family.0,
             t.pairs,
             t.hits,
@@ -164,6 +171,7 @@ fn a_million_pairs() {
             t.undecided,
             t.iterations as f64 / t.pairs as f64,
             t.most_iterations,
+            t.least_gap,
             t.widest_gap,
             quantile(&t.times, 0.5),
             quantile(&t.times, 0.99),
