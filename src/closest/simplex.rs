@@ -140,7 +140,10 @@ impl<R: Real> Simplex<R> {
         if d3 >= zero && d4 <= d3 {
             return self.keep([j], [one]);
         }
-        let vc = d1 * d4 - d3 * d2;
+        // twice the areas that the origin's foot spans with the sides, times |n|: as products with the normal they
+        // lose L/δ of a triangle of length L and width δ, where d₁ d₄ − d₃ d₂ would lose its square
+        let n = triangle_normal(&a, &b, &c);
+        let vc = n.dot(&a.cross(&b));
         if vc <= zero && d1 >= zero && d3 <= zero {
             return self.segment([i, j]);
         }
@@ -148,11 +151,11 @@ impl<R: Real> Simplex<R> {
         if d6 >= zero && d5 <= d6 {
             return self.keep([k], [one]);
         }
-        let vb = d5 * d2 - d1 * d6;
+        let vb = n.dot(&c.cross(&a));
         if vb <= zero && d2 >= zero && d6 <= zero {
             return self.segment([i, k]);
         }
-        let va = d3 * d6 - d5 * d4;
+        let va = n.dot(&b.cross(&c));
         if va <= zero && d4 - d3 >= zero && d5 - d6 >= zero {
             return self.segment([j, k]);
         }
