@@ -67,7 +67,8 @@ pub const CERTIFICATE_SLACK: f64 = 2.0 * f64::EPSILON;
 /// promise, are said not to.
 pub const CERTIFICATE_WIDTH: f64 = 16.0 * f64::EPSILON;
 
-/// The same where a body is curved, whose heights and points are rounded more [-].
+/// The same where a body is curved [-], whose heights and points are rounded more: what `Accuracy::Exact` tells of
+/// it. Larger and smaller: as there.
 pub const CERTIFICATE_WIDTH_CURVED: f64 = 23.0 * f64::EPSILON;
 
 /// Gap between the bounds of the distance at which the search in `f64` stops, as a fraction of the

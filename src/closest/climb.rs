@@ -38,6 +38,7 @@ pub(super) fn polyhedra(
     let (views, center) = ([view_a, view_b], at_a.point(a.center()));
     let rounding = view_a.rounding + view_b.rounding;
     let pair = Pair::new(a, &at_a, b, &at_b);
+
     // the features of the last answer, each point still in the other's region
     let last = cache.as_ref().and_then(|c| c.features());
     if let Some(found) = last.and_then(|features| region::joined(&pair, features)) {

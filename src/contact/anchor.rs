@@ -11,8 +11,8 @@
 //! A corner is a round of radius 0, as is every point of two faces that lie on each other: their common plane
 //! is what matters, and it turns with one of them. The side of a cylinder rests on a face as two rounds at the
 //! ends of its axis. An ellipsoid's Q has the squares of its semi-axes; a rim of radius r about the axis e is the
-//! ellipsoid without height, Q = r² (1 − e eᵀ). A cone on its side rests on its apex and its rim. What rolls on
-//! anything but a face, and is no ball, has no anchor here.
+//! ellipsoid without height, Q = r² (1 − e eᵀ). A cone on its side rests on its apex and its rim. What rolls
+//! over an edge, or on a curve that is no ball, has no anchor here.
 
 use super::cluster::{ClusterBody, Contact};
 use super::manifold::{Manifold, ManifoldPoint, Surface};
@@ -103,7 +103,8 @@ pub struct Faced<'a> {
 }
 
 impl Anchor {
-    /// The anchor of a manifold's point; none where the contact has no single normal, or rolls on a curve.
+    /// The anchor of a manifold's point; none where the contact has no single normal, or rolls over
+    /// an edge or on a curve that is no ball.
     pub fn new(a: &Faced<'_>, b: &Faced<'_>, manifold: &Manifold, point: &ManifoldPoint) -> Option<Self> {
         let [n] = manifold.normals[..] else { return None };
         let count = manifold.points.len();

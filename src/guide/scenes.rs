@@ -88,7 +88,8 @@
 //! meet again at a speed. A blow lasts no time and breaks nothing. What may come off cannot stay in contact with
 //! others, nor carry what sticks to it while it hangs on something fixed: such a run ends by name. Bodies of
 //! fewer freedoms must not collide, which is refused by name. A run ends, with all that was computed, where something
-//! rolls on a curve that is no ball, as an egg on an egg, and where a body sticks that an effect joins to others in flight.
+//! round rolls over an edge, as a ball off a table, or on a curve that is no ball, as an egg on an egg, and where a body
+//! sticks that an effect joins to others in flight.
 //!
 //! ```toml
 //! [[bodies]]
