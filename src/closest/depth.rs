@@ -159,6 +159,7 @@ fn grow<R: Real>(
     dents: Dents,
 ) -> Option<Bounds<R>> {
     let mut best: Option<Bounds<R>> = None;
+    let mut ball = R::from(f64::NEG_INFINITY);
     while surface.points.len() < pair.most_points() {
         *steps += 1;
         let Some(nearest) = surface.nearest() else { break };
@@ -171,24 +172,25 @@ fn grow<R: Real>(
             return None;
         }
 
-        // the nearest triangle and the best direction so far bound the depth; until they meet, the point
-        // is the deepest along that direction
-        let is_better = best.as_ref().is_none_or(|b| low > b.lower);
-        if is_better && -low - distance > gap {
-            let mut simplex = Simplex::empty();
-            simplex.push(ids, pair.difference(ids));
-            let _ = simplex.reduce();
-            best = Some(Bounds { simplex, point: simplex.points[0], normal: -normal, lower: low, upper: -distance });
-        }
-        if let Some(b) = &mut best {
-            b.upper = -distance;
-            if -low - distance > gap && enough(b) {
-                break;
-            }
-        }
         if -low - distance <= gap {
             let (simplex, point) = surface.nearest_witness(nearest, gap);
             return Some(Bounds { simplex, point, normal: -normal, lower: low, upper: -distance });
+        }
+
+        // the largest ball so far and the best direction so far bound the depth; until they meet, the point is the
+        // deepest along that direction
+        ball = if distance > ball { distance } else { ball };
+        if best.as_ref().is_none_or(|b| low > b.lower) {
+            let mut simplex = Simplex::empty();
+            simplex.push(ids, pair.difference(ids));
+            let _ = simplex.reduce();
+            best = Some(Bounds { simplex, point: simplex.points[0], normal: -normal, lower: low, upper: -ball });
+        }
+        if let Some(b) = &mut best {
+            b.upper = -ball;
+            if enough(b) {
+                break;
+            }
         }
 
         if !surface.ids.contains(&ids) {
