@@ -46,7 +46,7 @@ pub(super) fn below(
 ) -> ClosestFeatures {
     let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
     let (between, remote) = from_to(&at_a, [0.0; 3], &at_b, core.center());
-    let distance = Vec3(between.to_f64()).norm() + plane.offset.abs();
+    let distance = Vec3(between.to_f64()).norm() + plane.offset.abs() / Vec3::<f64>(plane.normal).norm();
     if distance <= FAR * (core.reach() + view_b.rounding) {
         let between = Vec3(between.to_f64());
         answer(plane, &at_a, core, (view_b, &at_b), between, distance, remote, Rung::Searched, accuracy)
