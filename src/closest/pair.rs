@@ -66,6 +66,9 @@ const PLATEAU: usize = 32;
 const ROUNDING_UNITS: f64 = 3.0;
 /// Of a point placed in the world in double-double: two rotations of 22 u and the sums [-].
 const REMOTE_UNITS: f64 = 48.0;
+/// What squares lose that underflow [m]: lengths below 1e-154 may come out as 0. Larger: gaps that are told would count
+/// as touching.
+const UNDERFLOW: f64 = 1e-150;
 /// What a piece's own rotation adds, in units `u` times the radii [-].
 const PIECE_UNITS: f64 = 11.0;
 
@@ -166,6 +169,7 @@ impl Stand<'_> {
     pub(super) fn precise_point(&self, p: [f64; 3]) -> Vec3<DoubleDouble> {
         let in_pose = match self.piece {
             Some(piece) => rotate(&piece.precise, &Vec3::new(p)) + Vec3::new(piece.position.0),
+            None if p == [0.0; 3] => return Vec3::new(self.pose.position.into()),
             None => Vec3::new(p),
         };
         rotate(&precise_rotation(&self.pose.orientation), &in_pose) + Vec3::new(self.pose.position.into())
@@ -216,7 +220,7 @@ impl Measure {
         let units = (RADII_UNITS + pieces + extra) * radii + CENTERS_UNITS * centers + ROUNDING_UNITS * rounding;
         // the last subtraction of the radii is in f64 even where all else is finer
         let last = if rounding > 0.0 { f64::UNIT * (rounding + centers) } else { 0.0 };
-        Self { size: radii + centers + rounding, error: unit * units + last }
+        Self { size: radii + centers + rounding, error: unit * units + last + UNDERFLOW }
     }
 }
 

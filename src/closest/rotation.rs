@@ -73,7 +73,7 @@ pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
     let excesses = excess.to_array();
     let largest = excesses[0].abs().max(excesses[1].abs());
     if largest > NEARLY_UNIT {
-        return Rotations::of(&rotation(a), &rotation(b));
+        return Rotations::of(&rounded(a), &rounded(b));
     }
     let less =
         if largest > UNIT_EXCESS { f64x2::from(excesses.map(less_than_one)) } else { f64x2::splat(0.5) * excess };
@@ -95,7 +95,13 @@ pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
 }
 
 /// The rotation of `q/|q|` as rows, rounded once.
+#[inline]
 pub(super) fn rotation(q: &Quaternion) -> [Vec3<f64>; 3] {
+    rotations(q, q).0.map(|row| Vec3(row.map(|both| both[0])))
+}
+
+/// The same by way of double-double.
+fn rounded(q: &Quaternion) -> [Vec3<f64>; 3] {
     precise_rotation(q).map(|row| Vec3(row.to_f64()))
 }
 

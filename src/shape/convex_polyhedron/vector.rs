@@ -19,8 +19,15 @@ pub(super) fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// The length, also where the squares would underflow.
 pub(super) fn norm(a: &[f64; 3]) -> f64 {
-    dot(a, a).sqrt()
+    let square = dot(a, a);
+    if square >= f64::MIN_POSITIVE / f64::EPSILON {
+        return square.sqrt();
+    }
+    let (up, down) = (1e150, 1e-150);
+    let larger = a.map(|x| up * x);
+    down * dot(&larger, &larger).sqrt()
 }
 
 /// Twice the area of a triangle along its normal. The corners are taken apart in double-double: of a
