@@ -34,8 +34,10 @@ from ._bryla import (
     Energy,
     Event,
     HalfSpace,
+    Impact,
     MassProperties,
     Mesh,
+    Motion,
     PairCache,
     Piece,
     Pivot,
@@ -73,6 +75,8 @@ from ._bryla import (
     resume,
     rotation,
     schema,
+    time_of_impact,
+    time_of_impact_many,
     voronoi_regions,
 )
 from ._errors import AccuracyWarning, Error, SimulationError
@@ -101,8 +105,10 @@ __all__ = [
     "Error",
     "Event",
     "HalfSpace",
+    "Impact",
     "MassProperties",
     "Mesh",
+    "Motion",
     "PairCache",
     "Piece",
     "Pivot",
@@ -141,5 +147,7 @@ __all__ = [
     "resume",
     "rotation",
     "schema",
+    "time_of_impact",
+    "time_of_impact_many",
     "voronoi_regions",
 ]

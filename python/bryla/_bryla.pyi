@@ -52,6 +52,12 @@ _Accuracy: TypeAlias = Literal["exact", "yes_no"] | float
 _State: TypeAlias = Literal["separated", "touching", "overlapping"]
 _Feature: TypeAlias = tuple[str, int]
 _Poses: TypeAlias = Pose | tuple[npt.ArrayLike, npt.ArrayLike]
+_Motions: TypeAlias = (
+    Motion
+    | tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike, npt.ArrayLike]
+    | tuple[npt.ArrayLike, npt.ArrayLike, npt.ArrayLike, npt.ArrayLike, npt.ArrayLike]
+)
+_Outcome: TypeAlias = Literal["clear", "at", "already_touching", "overlap", "grazing", "stalled"]
 _Point2: TypeAlias = tuple[float, float]
 _Bodies: TypeAlias = tuple[BodyMotion, ...]
 _Pair: TypeAlias = tuple[_Numbers, _Numbers] | Sequence[_Numbers] | npt.NDArray[Any]
@@ -2417,6 +2423,157 @@ def closest_features_planar(
     Returns
     -------
     PlanarClosest
+    """
+
+@final
+class Motion:
+    """A uniform motion: a point of a body moves with constant velocity, and the body turns about it with
+    constant angular velocity.
+
+    x(t) = position + t velocity,  R(t) = exp(t [angular_velocity]) R(0)
+
+    Parameters
+    ----------
+    position : 3 numbers
+        Where the point `center` is at t = 0, world axes [m].
+    orientation : 4 numbers
+        Rotation from the shape's axes to the world's at t = 0, (w, x, y, z); it is divided by its length.
+    velocity : 3 numbers
+        Velocity of the point `center`, world axes [m/s].
+    angular_velocity : 3 numbers
+        Angular velocity, world axes [rad/s].
+    center : 3 numbers, optional
+        The point that moves uniformly, shape axes [m]: the shape's origin unless told otherwise.
+    """
+
+    def __new__(
+        cls,
+        position: _Numbers,
+        orientation: _Numbers,
+        velocity: _Numbers,
+        angular_velocity: _Numbers,
+        center: _Numbers = (0.0, 0.0, 0.0),
+    ) -> Motion: ...
+    @property
+    def position(self) -> _Array:
+        """Where the point `center` is at t = 0, world axes [m]: array (3,)."""
+
+    @property
+    def orientation(self) -> _Array:
+        """Rotation from the shape's axes to the world's at t = 0, (w, x, y, z): array (4,)."""
+
+    @property
+    def velocity(self) -> _Array:
+        """Velocity of the point `center`, world axes [m/s]: array (3,)."""
+
+    @property
+    def angular_velocity(self) -> _Array:
+        """Angular velocity, world axes [rad/s]: array (3,)."""
+
+    @property
+    def center(self) -> _Array:
+        """The point that moves uniformly, shape axes [m]: array (3,)."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Impact:
+    """How a search for an impact ended, and what it cost."""
+
+    @property
+    def outcome(self) -> _Outcome:
+        """ "clear": no impact, proved by the guaranteed search, not seen by the others. "at": the gap is in
+        (0, eps] and closes. "already_touching": the search starts with a gap within eps that closes, or that
+        stays. "overlap": it starts in overlap. "grazing": the gap came within (0, eps] and opens again.
+        "stalled": eps is below what rounding leaves.
+        """
+
+    @property
+    def time(self) -> float:
+        """When [s]: of the impact or graze; the end of the search where it is clear; how far it came where it
+        stalled; else its start.
+        """
+
+    @property
+    def iterations(self) -> int:
+        """Rounds of the finder."""
+
+    @property
+    def queries(self) -> int:
+        """Queries of the closest features, or evaluations of the gap."""
+
+    @property
+    def closest(self) -> ClosestFeatures:
+        """The closest features at that time."""
+
+    def __eq__(self, value: object, /) -> bool: ...
+
+def time_of_impact(
+    a: _Collidable,
+    motion_a: Motion,
+    b: _Collidable,
+    motion_b: Motion,
+    t_max: float,
+    eps: float | None = None,
+    finder: _Finder = "guaranteed",
+) -> Impact:
+    """The first impact of two moving bodies in 0 to t_max, other threads running meanwhile.
+
+    Accepted is only a gap in (0, eps], never an overlap. The guaranteed search proves the way free and misses
+    nothing; bisection and secant are the lecture's, look at the ends of the time, and do not see what passes
+    through between them. A pair that starts within eps and separates is searched on from where its gap exceeds
+    eps, or from where its approach resumes.
+
+    Parameters
+    ----------
+    a, b : a shape, ConvexPolyhedron or Collider
+        The bodies; a shape is prepared at each call, a Collider once.
+    motion_a, motion_b : Motion
+        How they move.
+    t_max : float
+        Up to when is searched [s].
+    eps : float, optional
+        The gap at which contact is accepted [m]: without it 1e-12 of the pair's size (both radii). The guaranteed
+        search takes no less than the rounding of the coordinates. A smaller one is found later by less than eps
+        over the speed of approach.
+    finder : "guaranteed", "secant" or "bisection"
+        How the time is found.
+
+    Returns
+    -------
+    Impact
+    """
+
+def time_of_impact_many(
+    a: _Collidable,
+    motions_a: _Motions,
+    b: _Collidable,
+    motions_b: _Motions,
+    t_max: float,
+    eps: float | None = None,
+    finder: _Finder = "guaranteed",
+) -> dict[str, npt.NDArray[Any]]:
+    """Impacts for many motions of one pair, other threads running meanwhile.
+
+    Parameters
+    ----------
+    a, b : a shape, ConvexPolyhedron or Collider
+        The bodies.
+    motions_a, motions_b : Motion, or a tuple of arrays
+        One motion, or positions (..., 3) [m], orientations (..., 4), velocities (..., 3) [m/s], angular
+        velocities (..., 3) [rad/s], and, where they are not 0, centers (..., 3) [m]: each may be a single one.
+    t_max : float
+        Up to when is searched [s].
+    eps : float, optional
+        As for time_of_impact.
+    finder : "guaranteed", "secant" or "bisection"
+        As for time_of_impact.
+
+    Returns
+    -------
+    dict of arrays
+        "outcome": (...), the words of Impact; "time": (...) [s]; "iterations", "queries": (...); and the closest
+        features at that time, as closest_features_many gives them.
     """
 
 def voronoi_regions(polygon: ConvexPolygon) -> list[VoronoiRegion]:

@@ -181,7 +181,13 @@ impl Plain for BreakingLoad {
 }
 
 /// The variant that `text` names.
-fn named<T: Copy>(place: &str, field: &'static str, all: &[T], name: fn(T) -> &'static str, text: &str) -> Result<T> {
+pub(crate) fn named<T: Copy>(
+    place: &str,
+    field: &'static str,
+    all: &[T],
+    name: fn(T) -> &'static str,
+    text: &str,
+) -> Result<T> {
     let found = all.iter().copied().find(|&variant| name(variant) == text);
     Ok(found.ok_or_else(|| {
         let names: Vec<_> = all.iter().map(|&variant| name(variant)).collect();

@@ -16,6 +16,7 @@ mod effect;
 mod error;
 mod event;
 mod freedom;
+mod impact;
 mod mass;
 mod math;
 mod options;
@@ -43,6 +44,7 @@ fn _bryla(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<mass::PyMassProperties>()?;
     shape::register(module)?;
     closest::register(module)?;
+    impact::register(module)?;
     effect::register(module)?;
     module.add_class::<batch::PyBatch>()?;
     module.add_class::<event::PyUserEvent>()?;

@@ -4,6 +4,7 @@ use crate::math::Vector3;
 
 /// How two bodies stand to each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum State {
     /// The lower bound of the signed distance is positive.
     Separated,
@@ -27,6 +28,7 @@ pub enum State {
 /// The lists are those of the [`ConvexPolyhedron`](crate::shape::convex_polyhedron::ConvexPolyhedron);
 /// ends and sides are named along z of the shape's axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Feature {
     /// A corner.
     Vertex(u32),
@@ -74,6 +76,7 @@ pub enum Accuracy {
 
 /// How far a query had to climb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Rung {
     /// The cached features or vertices still were the answer, or up to three others that the looks around came upon.
     Verified,
@@ -87,6 +90,7 @@ pub enum Rung {
 
 /// The closest features of two bodies A and B, in world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ClosestFeatures {
     /// Distance where positive, minus the depth where negative [m]: `normal · (point_b − point_a)`.
     pub signed_distance: f64,

@@ -394,7 +394,7 @@
 //! | | in code |
 //! |---|---|
 //! | height over the plane | [`Collider::gap`](crate::closest::vertex_plane::Collider::gap) |
-//! | time of contact | [`find_impact`](crate::impact::find_impact); every way to end: [`Outcome`](crate::impact::Outcome) |
+//! | time of contact | [`time_of_impact`](crate::impact::time_of_impact) of two bodies; [`find_impact`](crate::impact::find_impact) of a gap; every way to end: [`Outcome`](crate::impact::Outcome) |
 //! | bisection, secant, guaranteed | [`Finder::Bisection`](crate::impact::Finder::Bisection), [`Finder::Secant`](crate::impact::Finder::Secant), [`Finder::Guaranteed`](crate::impact::Finder::Guaranteed) |
 //! | `ε` | [`RunOptions::eps`](crate::scene::RunOptions::eps), [`tolerance::IMPACT_GAP`](crate::tolerance::IMPACT_GAP) |
 //! | bounce, stick | [`Response`](crate::contact::Response) |

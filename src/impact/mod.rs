@@ -26,6 +26,7 @@ pub use motion::{Instant, Motion, MotionBounds, Moving};
 
 use crate::closest::{Accuracy, ClosestFeatures, Collidable, PairCache, closest_features};
 use crate::error::{Error, Result};
+use crate::math::quaternion;
 use crate::tolerance::IMPACT_GAP;
 
 /// How the time of contact is found.
@@ -58,6 +59,7 @@ impl Finder {
 
 /// How a search for an impact ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Outcome {
     /// No impact: proved by the guaranteed search, not seen by the others.
     Clear,
@@ -90,6 +92,7 @@ impl Outcome {
 
 /// The end of a search, and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact {
     /// How it ended.
     pub outcome: Outcome,
@@ -148,12 +151,32 @@ pub fn time_of_impact<'a, 'b>(
     if let Some(eps) = eps.filter(|eps| !(*eps > 0.0 && eps.is_finite())) {
         return Err(Error::value(place, "eps", "positive and finite", eps));
     }
+    check_finite("time of impact, motion_a", motion_a)?;
+    check_finite("time of impact, motion_b", motion_b)?;
     let (a, b) = ((a.into(), motion_a), (b.into(), motion_b));
     let eps = eps.unwrap_or(IMPACT_GAP * (a.0.size() + b.0.size()));
     let mut cache = PairCache::new();
     let Found { outcome, time, iterations, queries, .. } = first_impact_by(finder, a, b, 0.0, t_max, eps, &mut cache)?;
     let closest = between(a, b, time, &mut cache)?;
     Ok(Impact { outcome, time, iterations, queries, closest })
+}
+
+/// Refuses a motion that is not finite where it starts.
+fn check_finite(place: &str, motion: &dyn Moving) -> Result<()> {
+    let (start, center) = (motion.at(0.0), motion.center());
+    let turned = quaternion::to_scalar_first(&start.pose.orientation);
+    // velocities first: where one is not finite, neither is what follows from it
+    let fields = [
+        ("velocity", start.velocity.as_slice()),
+        ("angular_velocity", start.angular_velocity.as_slice()),
+        ("center", center.as_slice()),
+        ("orientation", &turned[..]),
+        ("position", start.center.as_slice()),
+    ];
+    match fields.iter().find(|(_, numbers)| !numbers.iter().all(|x| x.is_finite())) {
+        Some((field, numbers)) => Err(Error::value(place, field, "finite", numbers)),
+        None => Ok(()),
+    }
 }
 
 /// The search over `from..=to` [s] by any finder; the cache is left with its last query.
@@ -233,7 +256,7 @@ pub fn find_impact(mut gap: impl FnMut(f64) -> f64, h: f64, eps: f64, finder: Fi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Pose, Vector3, quaternion};
+    use crate::math::{Pose, Vector3};
     use crate::shape::convex_polyhedron::ConvexPolyhedron;
 
     fn cuboid(h: [f64; 3]) -> ConvexPolyhedron {

@@ -66,6 +66,7 @@ pub trait Moving {
 /// x(t) = x₀ + v t        R(t) = exp(t [ω]) R(0)
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Motion {
     /// Where the point `center` is at t = 0, world axes [m].
     pub position: Vector3,

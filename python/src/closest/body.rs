@@ -131,7 +131,7 @@ impl PyCollider {
 }
 
 /// Anything that collides, prepared.
-pub(crate) struct AnyBody(pub(super) Collider);
+pub(crate) struct AnyBody(pub(crate) Collider);
 
 impl<'py> FromPyObject<'_, 'py> for AnyBody {
     type Error = PyErr;
@@ -149,7 +149,7 @@ impl<'py> FromPyObject<'_, 'py> for AnyBody {
 }
 
 /// Hands over a body without copying one that is prepared.
-pub(super) fn with_body<T>(given: &Bound<'_, PyAny>, ask: impl FnOnce(&Collider) -> Result<T>) -> Result<T> {
+pub(crate) fn with_body<T>(given: &Bound<'_, PyAny>, ask: impl FnOnce(&Collider) -> Result<T>) -> Result<T> {
     match given.cast::<PyCollider>() {
         Ok(collider) => ask(&collider.get().0),
         Err(_) => ask(&given.extract::<AnyBody>()?.0),

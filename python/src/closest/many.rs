@@ -89,14 +89,21 @@ pub(crate) fn closest_features_many(
     })?;
 
     let answer = PyDict::new(py);
+    add_columns(&answer, &leading, &found)?;
+    Ok(answer)
+}
+
+/// Adds the columns of answers whose leading axes are these.
+pub(crate) fn add_columns(answer: &Bound<'_, PyDict>, leading: &[usize], found: &[ClosestFeatures]) -> PyResult<()> {
+    let py = answer.py();
     let scalars: [(&str, Get<f64>); 3] =
         [("signed_distance", |f| f.signed_distance), ("lower", |f| f.lower), ("upper", |f| f.upper)];
     for (name, get) in scalars {
-        answer.set_item(name, array(py, &leading, found.iter().map(get).collect())?)?;
+        answer.set_item(name, array(py, leading, found.iter().map(get).collect())?)?;
     }
     let vectors: [(&str, Get<[f64; 3]>); 3] =
         [("point_a", |f| f.point_a.into()), ("point_b", |f| f.point_b.into()), ("normal", |f| f.normal.into())];
-    let mut shape = leading.clone();
+    let mut shape = leading.to_vec();
     shape.push(3);
     for (name, get) in vectors {
         answer.set_item(name, array(py, &shape, found.iter().flat_map(get).collect())?)?;
@@ -111,7 +118,7 @@ pub(crate) fn closest_features_many(
     ];
     for (name, get) in words {
         let numbers = PyArray1::from_vec(py, found.iter().map(get).collect());
-        answer.set_item(name, numbers.reshape(numpy::IxDyn(&leading))?)?;
+        answer.set_item(name, numbers.reshape(numpy::IxDyn(leading))?)?;
     }
-    Ok(answer)
+    Ok(())
 }

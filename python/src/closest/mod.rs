@@ -2,10 +2,10 @@
 
 use pyo3::prelude::*;
 
-mod body;
-mod many;
+pub(crate) mod body;
+pub(crate) mod many;
 mod planar;
-mod query;
+pub(crate) mod query;
 
 /// Adds the classes and functions.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {

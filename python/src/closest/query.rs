@@ -2,9 +2,10 @@
 
 use bryla::closest::{Accuracy, ClosestFeatures, Feature, PairCache, Rung, State, closest_features as query};
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 
 use super::body::with_body;
-use crate::convert::{self, Array};
+use crate::convert::{self, Array, Reduced};
 use crate::error::Result;
 use crate::math::PyPose;
 
@@ -63,7 +64,7 @@ pub(super) fn state_name(state: State) -> &'static str {
 /// The closest features of two bodies A and B, in world axes.
 #[pyclass(name = "ClosestFeatures", module = "bryla", frozen, eq)]
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PyClosestFeatures(ClosestFeatures);
+pub(crate) struct PyClosestFeatures(pub(crate) ClosestFeatures);
 
 #[pymethods]
 impl PyClosestFeatures {
@@ -162,6 +163,15 @@ impl PyClosestFeatures {
         let ((kind_a, a), (kind_b, b)) = (self.feature_a(), self.feature_b());
         let (state, d) = (self.state(), self.0.signed_distance);
         format!("<ClosestFeatures {state}, signed distance {d:?} m, {kind_a} {a} to {kind_b} {b}>")
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        convert::reduce(&py.get_type::<Self>(), &self.0)
+    }
+
+    #[classmethod]
+    fn _from_bytes(_class: &Bound<'_, PyType>, bytes: &[u8]) -> PyResult<Self> {
+        convert::from_bytes(bytes).map(Self)
     }
 }
 
