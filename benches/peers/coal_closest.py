@@ -5,9 +5,9 @@
 
 Both are called from Python. What a call costs is taken off coal's times, measured by the same loop over two balls,
 whose distance is a closed form; bryla takes all poses in one call. Coal's poses are made beforehand, bryla's time
-includes their conversion and the arrays of the answers. Warm queries start from the last one (coal: the cached guess);
-a cold query of coal starts anew, one of bryla from the unrelated pose before it. Least thread time of several
-repetitions; the last column is the largest difference of the signed distances as a fraction of the size.
+includes their conversion and the arrays of the answers. Warm queries start from the last one (coal: the cached guess),
+cold ones anew. Least thread time of several repetitions; the last column is the largest difference of the signed
+distances as a fraction of the size.
 """
 
 import math
@@ -86,13 +86,13 @@ def coal_queries(a, b, transforms, warm):
     return best, np.array(found)
 
 
-def bryla_queries(a, b, x, q):
+def bryla_queries(a, b, x, q, warm):
     """Nanoseconds a pose of one call with many, and the signed distances."""
     home = bryla.Pose((0, 0, 0), (1, 0, 0, 0))
     best, found = math.inf, None
     for _ in range(REPETITIONS):
         began = time.thread_time_ns()
-        found = bryla.closest_features_many(a, home, b, (x, q))
+        found = bryla.closest_features_many(a, home, b, (x, q), warm=warm)
         best = min(best, (time.thread_time_ns() - began) / len(x))
     return best, found["signed_distance"]
 
@@ -113,7 +113,7 @@ def main():
             for size in SIZES:
                 p, r = points(size, (1.0, 0.8, 0.6), 0.0), points(size, (0.9, 1.0, 0.7), 1.0)
                 hulls = [bryla.Collider(bryla.ConvexPolyhedron(cloud)) for cloud in (p, r)]
-                ours, d = bryla_queries(*hulls, x, q)
+                ours, d = bryla_queries(*hulls, x, q, step is not None)
                 theirs, e = coal_queries(coal_hull(p), coal_hull(r), transforms, step is not None)
                 theirs -= call
                 off = np.max(np.abs(d - e)) / (2.0 + distance)

@@ -2380,11 +2380,12 @@ def closest_features(
     """
 
 def closest_features_many(
-    a: _Collidable, poses_a: _Poses, b: _Collidable, poses_b: _Poses, accuracy: _Accuracy = "exact"
+    a: _Collidable, poses_a: _Poses, b: _Collidable, poses_b: _Poses, accuracy: _Accuracy = "exact", warm: bool = True
 ) -> dict[str, npt.NDArray[Any]]:
     """Closest features for many poses of one pair, other threads running meanwhile.
 
-    Each query starts from the one before it, so order the poses along the motion.
+    Each query starts from the one before it, so order the poses along the motion; poses that have nothing to do
+    with each other are asked faster anew.
 
     Parameters
     ----------
@@ -2394,6 +2395,8 @@ def closest_features_many(
         One pose, or positions (..., 3) [m] and orientations (..., 4), which mean q/|q|.
     accuracy : "exact", "yes_no" or float
         As for closest_features.
+    warm : bool
+        Whether a query starts from the one before it. Anew, no answer's rounding depends on the other poses.
 
     Returns
     -------

@@ -110,6 +110,12 @@ def test_many_poses_agree_with_one_at_a_time_and_let_others_run():
         assert one.lower <= many["upper"][index]
         assert {1: "separated", 0: "touching", -1: "overlapping"}[int(many["state"][index])] == one.state
 
+    # asked anew, the order of the poses leaves no trace
+    anew = bryla.closest_features_many(a, HOME, b, (x, q), warm=False)
+    alone = [bryla.closest_features(a, HOME, b, bryla.Pose(x[i], q[i])) for i in np.ndindex(4, 25)]
+    np.testing.assert_array_equal(anew["signed_distance"].ravel(), [one.signed_distance for one in alone])
+    np.testing.assert_array_equal(anew["point_a"].reshape(-1, 3), [one.point_a for one in alone])
+
     # another thread counts while the queries run
     counted, stop = [0], threading.Event()
 

@@ -44,7 +44,8 @@ type Get<T> = fn(&ClosestFeatures) -> T;
 
 /// Closest features for many poses of one pair, other threads running meanwhile.
 ///
-/// Each query starts from the one before it, so order the poses along the motion.
+/// Each query starts from the one before it, so order the poses along the motion; poses that have nothing to do
+/// with each other are asked faster anew.
 ///
 /// Parameters
 /// ----------
@@ -54,6 +55,8 @@ type Get<T> = fn(&ClosestFeatures) -> T;
 ///     One pose, or positions (..., 3) [m] and orientations (..., 4), which mean q/|q|.
 /// accuracy : "exact", "yes_no" or float
 ///     As for closest_features.
+/// warm : bool
+///     Whether a query starts from the one before it. Anew, no answer's rounding depends on the other poses.
 ///
 /// Returns
 /// -------
@@ -62,8 +65,8 @@ type Get<T> = fn(&ClosestFeatures) -> T;
 ///     axes; "state": (...), 1 separated, 0 touching, −1 overlapping; "certified": (...), 1 or 0.
 #[pyfunction]
 #[pyo3(
-    signature = (a, poses_a, b, poses_b, accuracy=Stop(Accuracy::Exact)),
-    text_signature = "(a, poses_a, b, poses_b, accuracy=\"exact\")"
+    signature = (a, poses_a, b, poses_b, accuracy=Stop(Accuracy::Exact), warm=true),
+    text_signature = "(a, poses_a, b, poses_b, accuracy=\"exact\", warm=True)"
 )]
 pub(crate) fn closest_features_many(
     py: Python<'_>,
@@ -72,6 +75,7 @@ pub(crate) fn closest_features_many(
     b: AnyBody,
     poses_b: Poses,
     accuracy: Stop,
+    warm: bool,
 ) -> Result<Bound<'_, PyDict>> {
     let leading = match (&poses_a.1, &poses_b.1) {
         (Some(x), Some(y)) if x != y => {
@@ -85,7 +89,7 @@ pub(crate) fn closest_features_many(
     let found = py.detach(|| -> bryla::Result<Vec<ClosestFeatures>> {
         let mut cache = PairCache::new();
         let pairs = poses_a.0.iter().cycle().zip(poses_b.0.iter().cycle()).take(count);
-        pairs.map(|(x, y)| query(&a.0, x, &b.0, y, Some(&mut cache), accuracy.0)).collect()
+        pairs.map(|(x, y)| query(&a.0, x, &b.0, y, warm.then_some(&mut cache), accuracy.0)).collect()
     })?;
 
     let answer = PyDict::new(py);
