@@ -57,8 +57,9 @@ impl<R: Real> Rotations<R> {
     }
 }
 
-/// The rotations of two quaternions `q/|q|`; see the [module](self).
-#[inline]
+/// The rotations of two quaternions `q/|q|`; see the [module](self). As a call it passes its vectors through memory, and
+/// a query of coherent motion takes 1.4 times as long.
+#[inline(always)]
 pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
     let (leading, one) = (f64x2::splat(LEADING), f64x2::splat(1.0));
     let q = [[a.w, b.w], [a.i, b.i], [a.j, b.j], [a.k, b.k]].map(f64x2::from);
@@ -95,7 +96,6 @@ pub(super) fn rotations(a: &Quaternion, b: &Quaternion) -> Rotations<f64> {
 }
 
 /// The rotation of `q/|q|` as rows, rounded once.
-#[inline]
 pub(super) fn rotation(q: &Quaternion) -> [Vec3<f64>; 3] {
     rotations(q, q).0.map(|row| Vec3(row.map(|both| both[0])))
 }

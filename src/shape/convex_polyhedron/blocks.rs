@@ -48,7 +48,8 @@ impl Block {
 pub(crate) fn others_reach(blocks: &[Block], floor: f64, d: &[f64; 3], two: [u32; 2]) -> bool {
     blocks.iter().any(|block| {
         let mut high = block.heights(d).simd_ge(f64x4::splat(floor)).to_bitmask();
-        while let Some(&id) = block.ids.get(high.trailing_zeros() as usize) {
+        while high != 0 {
+            let id = block.ids[high.trailing_zeros() as usize % 4];
             if id != two[0] && id != two[1] {
                 return true;
             }
