@@ -209,7 +209,18 @@ fn grow<R: Real>(
         }
     }
     // bounds that cross say that rounding turned the surface inside out: nothing is proved
-    best.filter(|b| b.lower <= b.upper + R::from(pair.error(b.lower.to_f64())))
+    let mut best = best.filter(|b| b.lower <= b.upper + R::from(pair.error(b.lower.to_f64())))?;
+
+    // where no ball is proved, a point near the origin is an upper bound
+    if ball <= R::from(pair.error(0.0))
+        && let Some(nearest) = surface.nearest()
+    {
+        let (simplex, point) = surface.nearest_witness(nearest, gap);
+        if point.norm_squared() < best.point.norm_squared() {
+            (best.simplex, best.point) = (simplex, point);
+        }
+    }
+    Some(best)
 }
 
 /// Four points of the difference that span space, from the given ones; or the answer, where a direction
