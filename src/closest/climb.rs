@@ -297,8 +297,9 @@ fn describe<R: Real>(
     let rounding = R::from(views[0].rounding + views[1].rounding);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
     let floor = 2.0 * bound + CERTIFICATE_SLACK * pair.size();
-    // what a rung could do better leads to the next; the last is held to what is promised
-    let floor = if rung == Rung::DoubleDouble { floor.max(pair.promise()) } else { floor };
+    // what a rung could do better leads to the next; the last is held to what is promised, and what it sees within
+    // rounding of one place, as points that meet far from the origin, to the rounding of that on either side
+    let floor = if rung == Rung::DoubleDouble { floor.max(pair.promise()).max(4.0 * bound) } else { floor };
     let certified = is_certified(lower, upper, accuracy, floor, pair.size());
 
     // both points, joined by the same vector that the distance is taken from
