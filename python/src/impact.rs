@@ -1,6 +1,6 @@
 //! The time of contact of two moving bodies: one search, and many at once.
 
-use bryla::closest::ClosestFeatures;
+use bryla::closest::{ClosestFeatures, Collider};
 use bryla::impact::{Finder, Impact, Motion, time_of_impact as search};
 use bryla::math::{Pose, quaternion};
 use numpy::{IxDyn, PyArray1, PyArrayMethods};
@@ -8,7 +8,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
-use crate::closest::body::{AnyBody, with_body};
+use crate::closest::body::with_body;
 use crate::closest::many::add_columns;
 use crate::closest::query::PyClosestFeatures;
 use crate::convert::{self, Array, ArrayLike, Numbers, Reduced, array, items, named};
@@ -281,9 +281,9 @@ fn pick<const N: usize>(items: &[[f64; N]], k: usize) -> [f64; N] {
 #[allow(clippy::too_many_arguments, reason = "those of the core")]
 fn time_of_impact_many<'py>(
     py: Python<'py>,
-    a: AnyBody,
+    a: Bound<'py, PyAny>,
     motions_a: Motions,
-    b: AnyBody,
+    b: Bound<'py, PyAny>,
     motions_b: Motions,
     t_max: f64,
     eps: Option<f64>,
@@ -299,10 +299,11 @@ fn time_of_impact_many<'py>(
         (None, None) => Vec::new(),
     };
     let count: usize = leading.iter().product();
-    let found = py.detach(|| -> bryla::Result<Vec<Impact>> {
-        let pairs = motions_a.0.iter().cycle().zip(motions_b.0.iter().cycle()).take(count);
-        pairs.map(|(x, y)| search(&a.0, x, &b.0, y, t_max, eps, finder)).collect()
-    })?;
+    let pairs = motions_a.0.iter().cycle().zip(motions_b.0.iter().cycle()).take(count);
+    let all = |a: &Collider, b: &Collider| -> bryla::Result<Vec<Impact>> {
+        pairs.map(|(x, y)| search(a, x, b, y, t_max, eps, finder)).collect()
+    };
+    let found = with_body(&a, |a| with_body(&b, |b| Ok(py.detach(|| all(a, b))?)))?;
 
     let answer = PyDict::new(py);
     let words: Vec<_> = found.iter().map(|impact| impact.outcome.name()).collect();

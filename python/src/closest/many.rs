@@ -1,12 +1,12 @@
 //! Many queries of one pair at once.
 
-use bryla::closest::{Accuracy, ClosestFeatures, PairCache, State, closest_features as query};
+use bryla::closest::{Accuracy, ClosestFeatures, Collider, PairCache, State, closest_features as query};
 use bryla::math::{Pose, quaternion};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::body::AnyBody;
+use super::body::with_body;
 use super::query::Stop;
 use crate::convert::{ArrayLike, array, items};
 use crate::error::Result;
@@ -68,15 +68,15 @@ type Get<T> = fn(&ClosestFeatures) -> T;
     signature = (a, poses_a, b, poses_b, accuracy=Stop(Accuracy::Exact), warm=true),
     text_signature = "(a, poses_a, b, poses_b, accuracy=\"exact\", warm=True)"
 )]
-pub(crate) fn closest_features_many(
-    py: Python<'_>,
-    a: AnyBody,
+pub(crate) fn closest_features_many<'py>(
+    py: Python<'py>,
+    a: Bound<'py, PyAny>,
     poses_a: Poses,
-    b: AnyBody,
+    b: Bound<'py, PyAny>,
     poses_b: Poses,
     accuracy: Stop,
     warm: bool,
-) -> Result<Bound<'_, PyDict>> {
+) -> Result<Bound<'py, PyDict>> {
     let leading = match (&poses_a.1, &poses_b.1) {
         (Some(x), Some(y)) if x != y => {
             let message = format!("as many poses of A as of B wanted, got {x:?} and {y:?}");
@@ -86,11 +86,12 @@ pub(crate) fn closest_features_many(
         (None, None) => Vec::new(),
     };
     let count: usize = leading.iter().product();
-    let found = py.detach(|| -> bryla::Result<Vec<ClosestFeatures>> {
+    let pairs = poses_a.0.iter().cycle().zip(poses_b.0.iter().cycle()).take(count);
+    let all = |a: &Collider, b: &Collider| -> bryla::Result<Vec<ClosestFeatures>> {
         let mut cache = PairCache::new();
-        let pairs = poses_a.0.iter().cycle().zip(poses_b.0.iter().cycle()).take(count);
-        pairs.map(|(x, y)| query(&a.0, x, &b.0, y, warm.then_some(&mut cache), accuracy.0)).collect()
-    })?;
+        pairs.map(|(x, y)| query(a, x, b, y, warm.then_some(&mut cache), accuracy.0)).collect()
+    };
+    let found = with_body(&a, |a| with_body(&b, |b| Ok(py.detach(|| all(a, b))?)))?;
 
     let answer = PyDict::new(py);
     add_columns(&answer, &leading, &found)?;
