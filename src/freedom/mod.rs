@@ -325,7 +325,7 @@ pub(crate) enum Turning {
 }
 
 impl Chart {
-    /// How the point [`from_center`](Self::from_center) moves, of a chart whose numbers begin at `at`; none of a body
+    /// How the point [`point_body`](Self::point_body) moves, of a chart whose numbers begin at `at`; none of a body
     /// that has no numbers.
     pub(crate) fn place(&self, at: usize) -> Option<Place> {
         match self {
@@ -353,7 +353,7 @@ impl Chart {
 
     /// From the centre of mass to the point whose motion is simple, body axes [m]: the point of the body that rests,
     /// where one does.
-    pub(crate) fn from_center(&self) -> Vector3 {
+    pub(crate) fn point_body(&self) -> Vector3 {
         match self {
             Self::Pivot(c) => -c.arm_body(),
             Self::Axle(c) => -c.arm_body(),
@@ -369,7 +369,7 @@ impl Chart {
     /// What the body is free to do, each a pair (v, ω) of its centre of mass in world axes; none of a body that is
     /// free to do anything, or has no numbers.
     pub(crate) fn freedoms(&self, motion: &BodyMotion) -> Option<Vec<(Vector3, Vector3)>> {
-        let turn = |axis: Vector3| (axis.cross(&(motion.rotation * -self.from_center())), axis);
+        let turn = |axis: Vector3| (axis.cross(&(motion.rotation * -self.point_body())), axis);
         match self {
             Self::Planar(c) => Some(c.freedoms().to_vec()),
             Self::Pivot(_) => Some([Vector3::x(), Vector3::y(), Vector3::z()].map(turn).to_vec()),

@@ -96,7 +96,7 @@ impl Simulation {
     /// Largest distance of a body's matter from the point whose motion is looked at [m]: its unit's centre of mass, or a
     /// point of it that rests.
     pub(super) fn reach_from_center(&self, body: usize) -> f64 {
-        let arm = self.chart(body).map_or(0.0, |chart| chart.from_center().norm());
+        let arm = self.chart(body).map_or(0.0, |chart| chart.point_body().norm());
         self.body(body).radius + self.pose_in_unit(body).map_or(arm, |pose| pose.position.norm())
     }
 

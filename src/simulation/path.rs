@@ -103,7 +103,7 @@ impl<'a> Path<'a> {
                 }
             }
         };
-        Self { kind, center: center + chart.from_center(), turn: None }
+        Self { kind, center: center + chart.point_body(), turn: None }
     }
 
     fn instant(&self, center: Vector3, q: &Quaternion, velocity: Vector3, angular_velocity: Vector3) -> Instant {
