@@ -394,7 +394,8 @@ impl Simulation {
             self.begin_flight(lane, time, cluster, leads, record)?;
         }
         for part in parts.iter().filter(|part| !part.rests) {
-            self.lead(cluster, part, scales, time)?;
+            // what breaks within a step leaves the motion known up to where the step begins
+            self.lead(cluster, part, scales, time).map_err(|error| SimulationError { time: time.value, ..error })?;
         }
         for &lane in &lanes {
             if !self.lanes[lane].is_led() {

@@ -445,3 +445,22 @@ fn the_hovercraft_in_its_arena_moves_as_a_free_one_that_nothing_tips() {
     assert!(bryla::math::quaternion::angle_between(&hull.orientation, &other.orientation) <= apart);
     assert!(planar.report().met.unwrap() && planar.energy().unwrap().drift() < 1e-6);
 }
+
+#[test]
+fn a_run_that_ends_within_the_step_of_a_contact_ends_where_the_step_begins() {
+    // a top whose rim digs in: no forces meet the laws of contact (Painlevé 1895) in the step that the blow begins
+    let floor = Body::new("floor", HalfSpace::new(PLANE, -3.0)).fixed().friction(0.2).restitution(1.0);
+    let top = Body::new("top", Cylinder::new(0.20594646981027695, 0.379829544612236)).mass(1.72).friction(0.2);
+    let top = top.position([-1.5, 0.0, -1.5]).angular_velocity([3.207237, 2.553554, 2.052431]);
+    let top = top.orientation([-0.6780660440505177, -0.006410501777162615, -0.08498806558317475, -0.7300427207232988]);
+    let point = [0.03436994479728672, -0.018516085427670248, -0.5787183022104724];
+    let mut scene = scene([floor, top.freedom(Freedom::pivot(point))]);
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -9.81]));
+    let broken = scene.run(0.0..1.0, &RunOptions::tolerance(1e-9).estimate(false)).unwrap_err();
+    let bryla::RunError::Simulation(error) = broken else { panic!("{broken}") };
+    let run = error.trajectory.unwrap();
+    assert!(error.kind.to_string().contains("Painlevé"));
+    assert_eq!((run.events()[0].kind, run.events()[1].kind), (EventKind::Bounce, EventKind::Contact));
+    assert_eq!(error.time, run.events()[1].time);
+    assert!(run.energy().unwrap().drift() < 1e-6);
+}
