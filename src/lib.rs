@@ -28,8 +28,8 @@
 //!
 //! # What it does not do
 //!
-//! Contact of bodies of fewer freedoms: such scenes are refused when they are compiled. Large piles are slow. Where a contact cannot be followed, a named error
-//! carries the trajectory so far. Bodies are rigid.
+//! Bodies of fewer freedoms do not stick to others: such scenes are refused when they are compiled. Large piles are slow. Where
+//! a contact cannot be followed, a named error carries the trajectory so far. Bodies are rigid.
 //!
 //! # Map
 //!

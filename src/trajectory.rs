@@ -477,8 +477,8 @@ impl Trajectory {
         Ok(())
     }
 
-    /// Force and torque about the centre of mass with which its freedom holds each body at a sample,
-    /// in the scene's order [N], [N·m].
+    /// Force and torque about the centre of mass with which its freedom holds each body at a sample against what effects do,
+    /// in the scene's order [N], [N·m]. What contacts add while they last is not in it.
     pub fn reactions(&self, sample: usize) -> Vec<Load> {
         self.reactions_of(self.times[sample], &self.motions(sample))
     }

@@ -1655,11 +1655,11 @@ class Trajectory:
 
     @property
     def reaction_force(self) -> _Array:
-        """Force with which the freedom holds each body, world axes [N]: array (samples, bodies, 3)."""
+        """Force of the freedom against effects, world axes [N]: array (samples, bodies, 3)."""
 
     @property
     def reaction_torque(self) -> _Array:
-        """Torque of the freedom about each centre of mass, world axes [N·m]: array (samples, bodies, 3)."""
+        """Torque of the freedom against effects, about the centre of mass [N·m]: array (samples, bodies, 3)."""
 
     @property
     def events(self) -> list[Event]:
@@ -1758,11 +1758,11 @@ class States:
 
     @property
     def reaction_force(self) -> _Array:
-        """Force with which the freedom holds each body, world axes [N]: array ([times,] [bodies,] 3)."""
+        """Force of the freedom against effects, world axes [N]: array ([times,] [bodies,] 3)."""
 
     @property
     def reaction_torque(self) -> _Array:
-        """Torque of the freedom about each centre of mass, world axes [N·m]: array ([times,] [bodies,] 3)."""
+        """Torque of the freedom against effects, about the centre of mass [N·m]: array ([times,] [bodies,] 3)."""
 
     def __getitem__(self, name: str, /) -> States: ...
     def __eq__(self, value: object, /) -> bool: ...

@@ -228,7 +228,7 @@ impl<'py> FromPyObject<'_, 'py> for Motions {
             let wanted = "a Motion, or a tuple of arrays (positions, orientations, velocities, angular_velocities)";
             return Err(PyTypeError::new_err(format!("{wanted} wanted, perhaps with centers, got {}", obj.repr()?)));
         };
-        let column = |k: usize| -> PyResult<ArrayLike<'py>> { Ok(given.get_item(k)?.extract()?) };
+        let column = |k: usize| -> PyResult<ArrayLike<'py>> { given.get_item(k)?.extract() };
         let vectors = |k: usize| items::<3>(&column(k)?, &[3]);
         let (positions, orientations) = (vectors(0)?, items::<4>(&column(1)?, &[4])?);
         let (velocities, turns) = (vectors(2)?, vectors(3)?);
@@ -310,9 +310,10 @@ fn time_of_impact_many<'py>(
     let words = py.import("numpy")?.call_method1("array", (words, "U16"))?;
     answer.set_item("outcome", words.call_method1("reshape", (PyTuple::new(py, &leading)?,))?)?;
     answer.set_item("time", array(py, &leading, found.iter().map(|impact| impact.time).collect())?)?;
-    let counts: [(&str, fn(&Impact) -> u32); 2] = [("iterations", |i| i.iterations), ("queries", |i| i.queries)];
-    for (name, get) in counts {
-        let numbers = PyArray1::from_vec(py, found.iter().map(get).collect());
+    let iterations: Vec<u32> = found.iter().map(|impact| impact.iterations).collect();
+    let queries: Vec<u32> = found.iter().map(|impact| impact.queries).collect();
+    for (name, counts) in [("iterations", iterations), ("queries", queries)] {
+        let numbers = PyArray1::from_vec(py, counts);
         answer.set_item(name, numbers.reshape(IxDyn(&leading))?)?;
     }
     let closest: Vec<ClosestFeatures> = found.iter().map(|impact| impact.closest).collect();

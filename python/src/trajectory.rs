@@ -210,13 +210,13 @@ macro_rules! motion_class {
                 self.0.array(py, quantity::angular_momentum_body)
             }
 
-            #[doc = concat!("Force with which the freedom holds each body, world axes [N]: array ", $axes, "3).")]
+            #[doc = concat!("Force of the freedom against effects, world axes [N]: array ", $axes, "3).")]
             #[getter]
             fn reaction_force<'py>(&self, py: Python<'py>) -> Result<Array<'py>> {
                 self.0.reactions(py, |load| load.force)
             }
 
-            #[doc = concat!("Torque of the freedom about each centre of mass, world axes [N·m]: array ", $axes, "3).")]
+            #[doc = concat!("Torque of the freedom against effects, about the centre of mass [N·m]: array ", $axes, "3).")]
             #[getter]
             fn reaction_torque<'py>(&self, py: Python<'py>) -> Result<Array<'py>> {
                 self.0.reactions(py, |load| load.torque)

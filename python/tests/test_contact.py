@@ -1,10 +1,13 @@
 """Contact in runs, against closed forms."""
 
 import math
+from pathlib import Path
 
 import bryla
 import numpy as np
 import pytest
+
+SCENES = Path(__file__).parents[2] / "examples/scenes"
 
 
 def ball(name, radius, mass, **rest):
@@ -92,3 +95,37 @@ def test_a_breaking_load_is_a_force_and_a_torque():
         scene.add(ball("ball", 0.1, 1.0, breaking_load=(-1, 2)))
     with pytest.raises(TypeError, match="breaking_load"):
         ball("ball", 0.1, 1.0, breaking_load=3)
+
+
+def test_a_ball_pushes_a_door_open_and_a_hovercraft_bounces_off_a_wall():
+    # j = (1 + e) v/(1/m + d²/I), I = M ((2a)² + (2b)²)/12 + M a² about the hinge
+    (a, b, c), mass, m, r, v, d, e = (0.4, 0.02, 1.0), 20.0, 0.5, 0.1, 4.0, 0.7, 0.5
+    scene = bryla.Scene()
+    hinge = bryla.Axle((-a, 0, 0), (0, 0, 1))
+    scene.add(bryla.Body("door", bryla.Cuboid((a, b, c)), mass=mass, position=(a, 0, 0), freedom=hinge))
+    scene.add(ball("ball", r, m, position=(d, 1, 0.3), velocity=(0, -v, 0), restitution=e))
+    run = scene.run((0, 0.5), tolerance=1e-9)
+    (event,) = run.events
+    inertia = mass * (a**2 + b**2) / 3 + mass * a**2
+    j = (1 + e) * v / (1 / m + d**2 / inertia)
+    np.testing.assert_allclose(event.impulse, (0, j, 0), rtol=0, atol=1e-12 * j)
+    np.testing.assert_allclose(run["door"].angular_velocity[-1], (0, 0, -j * d / inertia), rtol=0, atol=1e-12)
+
+    # in the plane j = −(1 + e) u/(1/m + (r × n)²/I) at the corner that hits
+    arena = bryla.load(SCENES / "hovercraft_walls.toml")
+    assert "hovercraft–east: bounce, restitution 0.6, friction 0.2" in arena.explain()
+    assert "hovercraft: planar, 6 numbers" in arena.explain()
+    run = arena.run((0, 20), tolerance=1e-6)
+    assert run.report.met
+    assert {event.bodies[0] for event in run.events} > {"east", "north"}
+    # what stays in its plane stays there, and the walls take what the balance says
+    assert (run["hovercraft"].position[:, 2] == 0.4).all()
+    assert run.energy.drift < 1e-4
+
+
+def test_a_body_of_fewer_freedoms_that_would_stick_is_refused():
+    scene = bryla.Scene()
+    scene.add(bryla.Body("door", bryla.Cuboid((1, 0.1, 1)), mass=20, freedom=bryla.Axle((-1, 0, 0), (0, 0, 1))))
+    scene.add(ball("mud", 0.1, 0.5, position=(0.5, 1, 0), response="stick"))
+    with pytest.raises(bryla.Error, match="body door: with freedom axle it cannot stick, as it would to mud"):
+        scene.compile()

@@ -41,6 +41,8 @@ macro_rules! catalogue {
 catalogue! {
     /// The lecture's hovercraft (§6): three engines with a schedule that drives turns, and drag, in a plane.
     hovercraft,
+    /// The same hovercraft in an arena with four walls: it bounces off them, in its plane.
+    hovercraft_walls,
     /// A book thrown spinning about its middle axis: it flips, though nothing pushes it.
     spinning_book,
     /// A cone on its tip: it precesses and nods.

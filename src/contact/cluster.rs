@@ -99,10 +99,14 @@ impl Mobility {
 
     /// Change of velocity by the impulse `j` [N·s] at the lever `r` [m] from the centre of mass.
     pub fn answer(&self, j: &Vector3, r: &Vector3) -> Velocity {
-        let turn = r.cross(j);
+        self.times(j, &r.cross(j))
+    }
+
+    /// Change of velocity by an impulse [N·s] and an angular impulse about the centre of mass [N·m·s].
+    pub(crate) fn times(&self, impulse: &Vector3, turn: &Vector3) -> Velocity {
         Velocity {
-            linear: self.linear * j + self.coupling * turn,
-            angular: self.coupling.tr_mul(j) + self.angular * turn,
+            linear: self.linear * impulse + self.coupling * turn,
+            angular: self.coupling.tr_mul(impulse) + self.angular * turn,
         }
     }
 }

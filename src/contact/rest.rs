@@ -54,6 +54,19 @@ impl Acceleration {
         let torque = load.torque - motion.angular_velocity.cross(&motion.angular_momentum());
         Self { linear: body.mobility.linear * load.force, angular: body.mobility.angular * torque }
     }
+
+    /// That of a body held to some freedoms, whose centre of mass is accelerated by `own` [m/s²] where its velocities
+    /// along these freedoms stay: `ω × (ω × r)` of one that turns about a point, r from there.
+    ///
+    /// ```text
+    /// [a; α] = [own; 0] + Y [F − m own; M − ω × L]
+    /// ```
+    pub fn within(body: &ClusterBody, load: &Load, own: &Vector3) -> Self {
+        let motion = &body.motion;
+        let torque = load.torque - motion.angular_velocity.cross(&motion.angular_momentum());
+        let more = body.mobility.times(&(load.force - motion.mass * own), &torque);
+        Self { linear: own + more.linear, angular: more.angular }
+    }
 }
 
 /// A contact that lasts, with its geometry in motion.

@@ -1,6 +1,6 @@
 //! A body that turns about an axis at rest: a wheel, a pendulum.
 
-use super::{Scales, direction};
+use super::{Scales, Turning, direction, nearest_turn};
 use crate::effect::series::{Place, SeriesBody, SeriesLoad};
 use crate::error::{Error, Result};
 use crate::math::series::{Attitude, Tape};
@@ -48,6 +48,25 @@ impl Axle {
         Ok(Self { axis, point, arm_body, start_orientation: motion.orientation, inv_moment: 1.0 / moment })
     }
 
+    /// Direction of the axle, world axes.
+    pub(super) fn axis(&self) -> Vector3 {
+        self.axis
+    }
+
+    /// A point of the axle, world axes [m].
+    pub(super) fn point(&self) -> Vector3 {
+        self.point
+    }
+
+    /// From that point to the centre of mass, body axes [m].
+    pub(super) fn arm_body(&self) -> Vector3 {
+        self.arm_body
+    }
+
+    pub(super) fn turning(&self, at: usize) -> Turning {
+        Turning::Angle { at, axis: self.axis, start: self.start_orientation }
+    }
+
     #[expect(clippy::unused_self, reason = "every chart answers this")]
     pub(super) fn dimension(&self) -> usize {
         2
@@ -55,7 +74,8 @@ impl Axle {
 
     pub(super) fn encode(&self, state: &BodyState, y: &mut [f64]) {
         let r = state.position - self.point;
-        y[0] = self.axis.dot(&quaternion::log(&(state.orientation * self.start_orientation.conjugate())));
+        let turned = quaternion::log(&(state.orientation * self.start_orientation.conjugate()));
+        y[0] = nearest_turn(self.axis.dot(&turned), y[0]);
         y[1] = self.axis.dot(&(state.angular_momentum + r.cross(&state.linear_momentum)));
     }
 

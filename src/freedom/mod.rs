@@ -14,7 +14,7 @@ use crate::effect::series::{SeriesBody, SeriesLoad};
 use crate::error::{Error, Result};
 use crate::math::series::Tape;
 use crate::math::sum::two_sum;
-use crate::math::{Matrix3, Vector3};
+use crate::math::{Matrix3, Quaternion, Vector3};
 use crate::state::{BodyMotion, BodyState, Load};
 
 mod axle;
@@ -165,7 +165,8 @@ impl Chart {
         dispatch!(self, c => c.dimension(), 0)
     }
 
-    /// Writes a state as coordinates.
+    /// Writes a state as coordinates. Full turns do not show in a state: an angle becomes the one nearest to that
+    /// which `y` holds.
     pub fn encode(&self, state: &BodyState, y: &mut [f64]) {
         dispatch!(self, c => c.encode(state, y), ());
     }
@@ -284,6 +285,125 @@ impl Chart {
     }
 }
 
+/// A point of a body, whose motion is simple, in the numbers of a chart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// Three numbers, from this one on [m].
+    Numbers(usize),
+    /// Two numbers, from this one on [m], along two unit vectors from a point.
+    Plane {
+        /// The first of them.
+        at: usize,
+        /// Where both are 0, world axes [m].
+        start: Vector3,
+        /// The unit vectors, world axes.
+        axes: [Vector3; 2],
+    },
+    /// It rests there, world axes [m].
+    Rests(Vector3),
+}
+
+/// How a body turns, in the numbers of a chart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Turning {
+    /// Four numbers, from this one on: a quaternion of any length, before `axes`.
+    Quaternion {
+        /// The first of them.
+        at: usize,
+        /// From the body's axes to those that the quaternion leads from.
+        axes: Quaternion,
+    },
+    /// One number, an angle [rad].
+    Angle {
+        /// Its place.
+        at: usize,
+        /// What it turns about, world axes.
+        axis: Vector3,
+        /// The orientation where it is 0.
+        start: Quaternion,
+    },
+}
+
+impl Chart {
+    /// How the point [`point_body`](Self::point_body) moves, of a chart whose numbers begin at `at`; none of a body
+    /// that has no numbers.
+    pub(crate) fn place(&self, at: usize) -> Option<Place> {
+        match self {
+            Self::Free(_) => Some(Place::Numbers(at)),
+            Self::Planar(c) => Some(c.place(at)),
+            Self::Pivot(c) => Some(Place::Rests(c.point())),
+            Self::Axle(c) => Some(Place::Rests(c.point())),
+            Self::Fixed | Self::Riding(_) => None,
+        }
+    }
+
+    /// How the body turns, of a chart whose numbers begin at `at`; none of a rotation matrix, and of a body that has no
+    /// numbers.
+    pub(crate) fn turning(&self, at: usize) -> Option<Turning> {
+        match self {
+            Self::Planar(c) => Some(c.turning(at)),
+            Self::Axle(c) => Some(c.turning(at)),
+            _ => {
+                let (part, spin) = self.spin_part(at).filter(|(_, spin)| spin.form() != Form::WorldMatrix)?;
+                let axes = spin.axes().map_or_else(Quaternion::identity, |axes| axes.conjugate());
+                Some(Turning::Quaternion { at: part.start, axes })
+            }
+        }
+    }
+
+    /// From the centre of mass to the point whose motion is simple, body axes [m]: the point of the body that rests,
+    /// where one does.
+    pub(crate) fn point_body(&self) -> Vector3 {
+        match self {
+            Self::Pivot(c) => -c.arm_body(),
+            Self::Axle(c) => -c.arm_body(),
+            Self::Free(_) | Self::Planar(_) | Self::Fixed | Self::Riding(_) => Vector3::zeros(),
+        }
+    }
+
+    /// Whether its body has fewer freedoms than a free one.
+    pub(crate) fn is_reduced(&self) -> bool {
+        matches!(self, Self::Planar(_) | Self::Pivot(_) | Self::Axle(_))
+    }
+
+    /// What the body is free to do, each a pair (v, ω) of its centre of mass in world axes; none of a body that is
+    /// free to do anything, or has no numbers.
+    pub(crate) fn freedoms(&self, motion: &BodyMotion) -> Option<Vec<(Vector3, Vector3)>> {
+        let turn = |axis: Vector3| (axis.cross(&(motion.rotation * -self.point_body())), axis);
+        match self {
+            Self::Planar(c) => Some(c.freedoms().to_vec()),
+            Self::Pivot(_) => Some([Vector3::x(), Vector3::y(), Vector3::z()].map(turn).to_vec()),
+            Self::Axle(c) => Some(vec![turn(c.axis())]),
+            Self::Free(_) | Self::Fixed | Self::Riding(_) => None,
+        }
+    }
+
+    /// Acceleration of the centre of mass that its motion takes where the angular velocity stays, `ω × (ω × r)` about
+    /// a point that rests [m/s²].
+    pub(crate) fn centripetal(&self, motion: &BodyMotion) -> Vector3 {
+        match self {
+            Self::Pivot(_) | Self::Axle(_) => motion.angular_velocity.cross(&motion.velocity),
+            Self::Free(_) | Self::Planar(_) | Self::Fixed | Self::Riding(_) => Vector3::zeros(),
+        }
+    }
+
+    /// Moves the body on for `h` [s] by the rates that its numbers have where nothing acts on it, which keep its momenta.
+    pub(crate) fn drift(&self, motion: &mut BodyMotion, h: f64) {
+        let n = self.dimension();
+        let (mut y, mut dy) = (vec![0.0; n], vec![0.0; n]);
+        self.encode(&motion.state(), &mut y);
+        self.rate_unloaded(&y, &mut dy);
+        y.iter_mut().zip(&dy).for_each(|(y, dy)| *y += h * dy);
+        self.decode(&y, motion);
+    }
+}
+
+/// Of the angles that differ from this one by full turns the nearest to `near` [rad].
+fn nearest_turn(angle: f64, near: f64) -> f64 {
+    let turn = std::f64::consts::TAU;
+    angle + turn * ((near - angle) / turn).round()
+}
+
 /// What the constraint must add so that the centre of mass accelerates with `a` and the body turns
 /// with the angular acceleration `alpha`: Newton's and Euler's equations solved for the load.
 fn missing_load(motion: &BodyMotion, load: &Load, a: &Vector3, alpha: &Vector3) -> Load {
@@ -317,6 +437,26 @@ fn about_point(motion: &BodyMotion, r: &Vector3) -> Matrix3 {
 mod tests {
     use super::*;
     use crate::math::quaternion;
+
+    #[test]
+    fn an_angle_is_written_next_to_the_one_before() {
+        // states do not show full turns; q = exp(θ u) is the same for θ and θ + 2π
+        let mut motion = BodyMotion::at_rest(2.0, Matrix3::identity());
+        let (up, angle) = (Vector3::z(), 3.0);
+        let held = [(Freedom::planar([0.0, 0.0, 1.0]), 2), (Freedom::axle([0.0; 3], [0.0, 0.0, 1.0]), 0)];
+        for (freedom, place) in held {
+            let chart = Chart::new(&freedom, Form::Body, &motion, "body").unwrap();
+            motion.orientation = quaternion::from_axis_angle(&up, angle);
+            for before in [0.0, 3.3, 9.5, -3.2, 100.0] {
+                let mut y = vec![before; chart.dimension()];
+                chart.encode(&motion.state(), &mut y);
+                let turns = (y[place] - angle) / std::f64::consts::TAU;
+                // rounding of a logarithm and of 16 turns
+                assert!((turns - turns.round()).abs() < 1e-14 && (y[place] - before).abs() < 3.2, "{before}: {y:?}");
+            }
+            motion.orientation = Quaternion::identity();
+        }
+    }
 
     #[test]
     fn a_constant_load_changes_the_numbers_as_any_load_does() {

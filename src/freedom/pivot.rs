@@ -49,6 +49,16 @@ impl Pivot {
         super::about_point(motion, &self.arm_body)
     }
 
+    /// The point that rests, world axes [m].
+    pub(super) fn point(&self) -> Vector3 {
+        self.point
+    }
+
+    /// From the pivot to the centre of mass, body axes [m].
+    pub(super) fn arm_body(&self) -> Vector3 {
+        self.arm_body
+    }
+
     /// Its rotation.
     pub(crate) fn spin(&self) -> &Spin {
         &self.spin

@@ -1,7 +1,7 @@
 //! A body that moves in a plane: the lecture's hovercraft (§6).
 
 use super::spin::{put, vector};
-use super::{Scales, direction};
+use super::{Scales, Turning, direction, nearest_turn};
 use crate::effect::series::{Place, SeriesBody, SeriesLoad, add};
 use crate::error::{Error, Result};
 use crate::math::series::{Attitude, Tape};
@@ -57,6 +57,20 @@ impl Planar {
         })
     }
 
+    pub(super) fn place(&self, at: usize) -> super::Place {
+        super::Place::Plane { at, start: self.start, axes: [self.e1, self.e2] }
+    }
+
+    pub(super) fn turning(&self, at: usize) -> Turning {
+        Turning::Angle { at: at + 2, axis: self.normal, start: self.start_orientation }
+    }
+
+    /// Two shifts and a turn.
+    pub(super) fn freedoms(&self) -> [(Vector3, Vector3); 3] {
+        let none = Vector3::zeros();
+        [(self.e1, none), (self.e2, none), (none, self.normal)]
+    }
+
     #[expect(clippy::unused_self, reason = "every chart answers this")]
     pub(super) fn dimension(&self) -> usize {
         6
@@ -64,7 +78,8 @@ impl Planar {
 
     pub(super) fn encode(&self, state: &BodyState, y: &mut [f64]) {
         let turned = quaternion::log(&(state.orientation * self.start_orientation.conjugate()));
-        put(y, &Vector3::new(self.e1.dot(&state.position), self.e2.dot(&state.position), self.normal.dot(&turned)));
+        let angle = nearest_turn(self.normal.dot(&turned), y[2]);
+        put(y, &Vector3::new(self.e1.dot(&state.position), self.e2.dot(&state.position), angle));
         let p = &state.linear_momentum;
         put(&mut y[3..], &Vector3::new(self.e1.dot(p), self.e2.dot(p), self.normal.dot(&state.angular_momentum)));
     }

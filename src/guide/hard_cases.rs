@@ -68,6 +68,10 @@
 //! | a corner on a plane, off centre | `j = −(1+e) v_n/(1/m + n·(I⁻¹(r×n))×r)` |
 //! | a thin rod on one end | the same with `I = ml²/12` |
 //! | cubes head on, a flat elastic cube on its face | velocities swap, no spin, ever |
+//! | a hovercraft on a wall, in its plane | `j = −(1+e) u_n/(1/m + (r × n)²_z/I_zz)`, its normal no principal axis |
+//! | a swinging rod on a ball | no shock to the axle at the depth `I/(mc)` |
+//! | a ball on a door | `j = (1+e) v/(1/m + d²/I)` |
+//! | an elastic pendulum at a wall where it hangs | the mirror image of its swing, and an estimate that holds |
 //! | twenty bounces, and the end of the series | `v₀ eⁿ`; at `t = (1+e)/(1−e) v₀/g` after the drop from rest |
 //! | an oblique ball | grip: `j_t = v_t/(1/m + r²/I)`; slip: `j_t = μ j_n` of the whole impulse |
 //! | a cradle, an unequal chain, three that meet symmetrically | momentum and energy, and the mirror |

@@ -449,6 +449,16 @@
 //! j = −(1 + e) u_n / (1/m_a + 1/m_b + n·[(I_a⁻¹ (r_a × n)) × r_a + (I_b⁻¹ (r_b × n)) × r_b])
 //! ```
 //!
+//! A body that is held to a plane, a pivot or an axle answers an impulse along its freedoms B only, with the mobility
+//! `Y = B (Bᵀ M B)⁻¹ Bᵀ` in the place of `1/m` and `I⁻¹`. For the hovercraft, whose plane has the normal `z`, that is
+//!
+//! ```text
+//! j = −(1 + e) u_n / (1/m + (r × n)²_z/I_zz)
+//! ```
+//!
+//! and a rod on an axle that is hit at the depth `I/(m c)`, c being that of its centre of mass, shakes its axle not at all:
+//! the centre of percussion.
+//!
 //! **Stick**: the merged body has the sum of the momenta `P`, the sum of the angular momenta about the common
 //! centre of mass, and the sum of the tensors moved there by the parallel-axis rule. The kinetic energy
 //! lost is reported.
@@ -470,6 +480,7 @@
 //!
 //! | | in code |
 //! |---|---|
+//! | mobility of a body of fewer freedoms | [`Mobility::within`](crate::contact::cluster::Mobility::within) |
 //! | bounce | [`contact::bounce::bounce`](crate::contact::bounce::bounce), of several bodies [`contact::collision::collide`](crate::contact::collision::collide) |
 //! | rest, sliding | [`contact::rest::rest`](crate::contact::rest::rest) |
 //! | accumulation | [`contact::accumulation`](crate::contact::accumulation) |

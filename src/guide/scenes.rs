@@ -87,7 +87,7 @@
 //! exceeds the `force`, or the `torque` about that point, both sides go on as they move, and stick again where they
 //! meet again at a speed. A blow lasts no time and breaks nothing. What may come off cannot stay in contact with
 //! others, nor carry what sticks to it while it hangs on something fixed: such a run ends by name. Bodies of
-//! fewer freedoms must not collide, which is refused by name. A run ends, with all that was computed, where something
+//! fewer freedoms bounce, rest and slide like others, but stick to nothing, which is refused by name. A run ends, with all that was computed, where something
 //! round rolls over an edge, as a ball off a table, or on a curve that is no ball, as an egg on an egg, and where a body
 //! sticks that an effect joins to others in flight.
 //!
@@ -187,7 +187,8 @@
 //! | `axle` | `point_body` of the axis, from the centre of mass (m, default 0); `axis_body`, any length but 0 | 2: rotation about the axis |
 //!
 //! The start must fit: no velocity out of the plane, no rotation about another axis. With a pivot or an axle
-//! leave `velocity` out, it follows from the rotation.
+//! leave `velocity` out, it follows from the rotation. Such a body takes an impulse as its freedom lets it: what a plane, a
+//! pivot or an axle adds to it is in no event, but in what the velocities of both bodies have changed by.
 //!
 //! ```toml
 //! [[bodies]]

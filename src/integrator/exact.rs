@@ -71,6 +71,8 @@ pub struct ClosedMotion {
     starts: Vec<Start>,
     /// The rotation of each body that has one.
     spins: Vec<Option<Spinning>>,
+    /// The numbers of each body in a plane or on an axle as polynomials of the time: y, y′, ½ y″.
+    lines: Vec<Vec<f64>>,
     dimension: usize,
 }
 
@@ -132,7 +134,13 @@ impl ClosedMotion {
             Start::Pivot { .. } => 7,
             Start::Line { y, .. } => y.len(),
         });
-        Self { begin, spins: spins.collect(), dimension: dimension.sum(), starts }
+        let lines = starts.iter().map(|start| match start {
+            Start::Line { y, slope, bend } => {
+                y.iter().chain(slope).copied().chain(bend.iter().map(|bend| 0.5 * bend)).collect()
+            }
+            _ => Vec::new(),
+        });
+        Self { begin, spins: spins.collect(), lines: lines.collect(), dimension: dimension.sum(), starts }
     }
 
     /// How many numbers describe it.
@@ -170,7 +178,7 @@ impl ClosedMotion {
     }
 }
 
-/// Bounds of a free motion over an interval: `|x″ − a| ≤ δ`, `|ω| ≤ w`, `|ω′| ≤ w′`, world axes.
+/// Bounds of a motion over an interval: `|x″ − a| ≤ δ`, `|ω| ≤ w`, `|ω′| ≤ w′`, world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FreeBounds {
     pub(crate) acceleration: Vector3,
@@ -179,20 +187,28 @@ pub(crate) struct FreeBounds {
     pub(crate) angular_acceleration: f64,
 }
 
-/// A free body among those of a closed motion.
+/// One body among those of a closed motion.
 impl ClosedMotion {
+    /// The numbers of a body in a plane or on an axle as polynomials of the time since the beginning [s], term by
+    /// term; none of others.
+    pub(crate) fn line(&self, body: usize) -> Option<&[f64]> {
+        Some(self.lines[body].as_slice()).filter(|line| !line.is_empty())
+    }
+
     /// Position [m], velocity [m/s], orientation and angular velocity [rad/s] of a free body, world axes, at
-    /// the time `t` since the beginning [s].
+    /// the time `t` since the beginning [s]; of one that turns about a point, orientation and angular velocity.
     pub(crate) fn free_motion(&self, body: usize, t: f64) -> (Vector3, Vector3, Quaternion, Vector3) {
-        let (Start::Free { motion, pull }, Some(spin)) = (&self.starts[body], &self.spins[body]) else {
-            return (Vector3::zeros(), Vector3::zeros(), Quaternion::identity(), Vector3::zeros());
-        };
-        let (position, velocity) = pull.after(&motion.position, &motion.velocity, t);
+        let (mut position, mut velocity) = (Vector3::zeros(), Vector3::zeros());
+        let Some(spin) = &self.spins[body] else { return (position, velocity, Quaternion::identity(), position) };
+        if let Start::Free { motion, pull } = &self.starts[body] {
+            (position, velocity) = pull.after(&motion.position, &motion.velocity, t);
+        }
         let (q, momentum_body) = spin.rotation.at(t);
         (position, velocity, q, quaternion::rotate(&q, &(spin.inverse * momentum_body)))
     }
 
-    /// Bounds of the motion of a free body over `from..=to` [s] since the beginning.
+    /// Bounds of the motion of a free body, or of one that turns about a point, over `from..=to` [s] since the
+    /// beginning; of the latter the point is what moves, or rather rests.
     ///
     /// ```text
     /// a(t) = a₀ e^(−kt)                             within |a₀| (e^(−k from) − e^(−k to))/2 of the middle
@@ -203,17 +219,23 @@ impl ClosedMotion {
     /// ω′ is the same vector in body and in world axes, and ω″ differs by ω × ω′. So over a short interval
     /// ω′ is known by its value at the start.
     pub(crate) fn free_bounds(&self, body: usize, from: f64, to: f64) -> FreeBounds {
-        let (Start::Free { motion, pull }, Some(spin)) = (&self.starts[body], &self.spins[body]) else {
-            let acceleration = Vector3::zeros();
-            return FreeBounds { acceleration, deviation: 0.0, angular_speed: 0.0, angular_acceleration: 0.0 };
+        let (mut acceleration, mut deviation) = (Vector3::zeros(), 0.0);
+        let (spin, w, momentum) = match (&self.starts[body], &self.spins[body]) {
+            (Start::Free { motion, pull }, Some(spin)) => {
+                let start = pull.acceleration - pull.drag * (motion.velocity - pull.wind);
+                let (first, last) = (libm::exp(-pull.drag * from), libm::exp(-pull.drag * to));
+                (acceleration, deviation) = (0.5 * (first + last) * start, 0.5 * (first - last) * start.norm());
+                let w = motion.angular_velocity_body();
+                (spin, w, motion.inertia_body * w)
+            }
+            (Start::Pivot { orientation, momentum, .. }, Some(spin)) => {
+                let momentum = quaternion::rotate(&orientation.conjugate(), momentum);
+                (spin, spin.inverse * momentum, momentum)
+            }
+            _ => return FreeBounds { acceleration, deviation, angular_speed: 0.0, angular_acceleration: 0.0 },
         };
-        let start = pull.acceleration - pull.drag * (motion.velocity - pull.wind);
-        let (first, last) = (libm::exp(-pull.drag * from), libm::exp(-pull.drag * to));
-        let (acceleration, deviation) = (0.5 * (first + last) * start, 0.5 * (first - last) * start.norm());
 
-        let w = motion.angular_velocity_body();
         let (least, most) = (spin.moments.min(), spin.moments.max());
-        let momentum = motion.inertia_body * w;
         let angular_speed = (momentum.norm() / least).min((w.dot(&momentum) / least).sqrt()) * OUTWARD;
         let kappa = if most - least < SPHERE * most { 0.0 } else { ((most - least) / least).min(1.0) };
         let always = kappa * angular_speed * angular_speed / 3f64.sqrt();

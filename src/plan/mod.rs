@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::closest::Collider;
-use crate::contact::{BreakingLoad, Material};
+use crate::contact::{BreakingLoad, Material, Response};
 use crate::effect::{AnyEffect, Target};
 use crate::error::{Error, Result};
 use crate::freedom::{Chart, Freedom, Prescribed};
@@ -569,8 +569,14 @@ fn collisions(
         let place = scene.bodies[i].place();
         let never = "where it never meets another, say collides = false of it";
         if !bodies[i].fixed {
-            if bodies[i].freedom != Freedom::Free {
-                let reason = format!("contact of a {} body cannot be answered; {never}", bodies[i].freedom.name());
+            let sticks = |&&j: &&usize| j != i && material(scene, i, j).response == Response::Stick;
+            if bodies[i].freedom != Freedom::Free
+                && let Some(&other) = solid.iter().find(sticks)
+            {
+                let (freedom, other) = (bodies[i].freedom.name(), &bodies[other].name);
+                let reason = format!(
+                    "with freedom {freedom} it cannot stick, as it would to {other}; let both bounce, or {never}"
+                );
                 return Err(Error::refused(place, reason));
             }
             if options.orientation == Orientation::Matrix && options.finder == Finder::Guaranteed {
@@ -593,13 +599,23 @@ fn collisions(
     Ok(())
 }
 
+/// What a pair of bodies does when they touch.
+fn material(scene: &Scene, a: usize, b: usize) -> Material {
+    Material::of_pair([a, b].map(|i| {
+        let body = &scene.bodies[i];
+        (body.restitution, body.friction, body.response)
+    }))
+}
+
 impl Plan {
     /// What a pair of bodies does when they touch.
     pub(crate) fn material(&self, a: usize, b: usize) -> Material {
-        Material::of_pair([a, b].map(|i| {
-            let body = &self.scene.bodies[i];
-            (body.restitution, body.friction, body.response)
-        }))
+        material(&self.scene, a, b)
+    }
+
+    /// The coordinates of a member of a group, also where it is held.
+    pub(crate) fn chart(&self, group: usize, member: usize) -> Option<&Chart> {
+        self.charts.get(group)?.get(member)
     }
 
     /// The load under which two bodies that have stuck come apart.

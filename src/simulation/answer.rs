@@ -15,7 +15,7 @@ use super::led::Led;
 use super::near::{Due, What};
 use super::{Failure, Simulation, SimulationError};
 use crate::contact::accumulation::{Accumulation, rest_speed};
-use crate::contact::cluster::{ClusterError, Contact};
+use crate::contact::cluster::{ClusterBody, ClusterError, Contact};
 use crate::contact::collision::collide;
 use crate::contact::rest::align;
 use crate::error::Error;
@@ -191,6 +191,10 @@ impl Simulation {
             Some((lane, _)) => {
                 let still = BodyMotion { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros(), ..*motion };
                 let Load { force, torque } = self.load_on(lane, &still, self.moment(lane, time.value));
+                if let Some(freedoms) = self.chart(body).and_then(|chart| chart.freedoms(&still)) {
+                    let pulled = ClusterBody::within(&still, &freedoms).mobility.times(&force, &torque);
+                    return pulled.linear.norm() + pulled.angular.norm() * self.body(body).radius;
+                }
                 let inverse = self.body(body).properties.inv_inertia();
                 let turning = (inverse * motion.rotation.tr_mul(&torque)).norm() * self.body(body).radius;
                 (force / motion.mass).norm() + turning
@@ -390,7 +394,8 @@ impl Simulation {
             self.begin_flight(lane, time, cluster, leads, record)?;
         }
         for part in parts.iter().filter(|part| !part.rests) {
-            self.lead(cluster, part, scales, time)?;
+            // what breaks within a step leaves the motion known up to where the step begins
+            self.lead(cluster, part, scales, time).map_err(|error| SimulationError { time: time.value, ..error })?;
         }
         for &lane in &lanes {
             if !self.lanes[lane].is_led() {

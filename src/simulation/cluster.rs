@@ -7,6 +7,8 @@ use crate::contact::anchor::{Anchor, Faced};
 use crate::contact::broad_phase::Aabb;
 use crate::contact::cluster::{ClusterBody, Contact};
 use crate::contact::manifold::{Surface, Touch, manifold};
+use crate::contact::rest::Acceleration;
+use crate::freedom::Chart;
 use crate::math::sum::Time;
 use crate::math::{Pose, Vector3, quaternion};
 use crate::shape::Shape;
@@ -180,7 +182,27 @@ impl Simulation {
         if self.places[body].is_none() || self.is_driven(body) {
             return ClusterBody::driven(motion);
         }
-        ClusterBody::free(motion, &self.body(body).properties.inv_inertia())
+        match self.chart(body).and_then(|chart| chart.freedoms(motion)) {
+            Some(freedoms) => ClusterBody::within(motion, &freedoms),
+            None => ClusterBody::free(motion, &self.body(body).properties.inv_inertia()),
+        }
+    }
+
+    /// The coordinates that the freedom of a body gives it, also where it is held; none of a compound, and of a body
+    /// that does not fly.
+    pub(super) fn chart(&self, body: usize) -> Option<&Chart> {
+        let (lane, member) = self.places[body]?;
+        let lane = &self.lanes[lane];
+        if lane.compound.is_some() { None } else { self.plan.chart(lane.group, member) }
+    }
+
+    /// The acceleration of a body that flies in a lane, under its loads and without contacts.
+    pub(super) fn free_acceleration(&self, body: usize, lane: usize, met: &ClusterBody, time: f64) -> Acceleration {
+        let load = self.load_on(lane, &met.motion, self.moment(lane, time));
+        match self.chart(body).filter(|chart| chart.is_reduced()) {
+            Some(chart) => Acceleration::within(met, &load, &chart.centripetal(&met.motion)),
+            None => Acceleration::free(met, &load),
+        }
     }
 
     /// Where the axes of a body's shape stand at an instant.

@@ -258,8 +258,11 @@ impl Simulation {
                 continue;
             };
             let motion = self.lanes[lane].motions[member];
-            let moment = self.moment(lane, self.lanes[lane].flight.front());
-            acceleration += sign / motion.mass * self.load_on(lane, &motion, moment).force;
+            let front = self.lanes[lane].flight.front();
+            acceleration += match self.chart(unit).filter(|chart| chart.is_reduced()) {
+                Some(_) => sign * self.free_acceleration(unit, lane, &self.cluster_body(unit, &motion), front).linear,
+                None => sign / motion.mass * self.load_on(lane, &motion, self.moment(lane, front)).force,
+            };
             speed += motion.velocity.norm() + motion.angular_velocity.norm() * self.body(unit).radius;
         }
         let by_speed = if *opening > 0.0 { LEAVES * eps / opening } else { f64::INFINITY };

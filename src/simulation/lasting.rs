@@ -244,10 +244,9 @@ impl Simulation {
         let mut free = Vec::new();
         for (&body, cluster_body) in cluster.bodies.iter().zip(&bodies) {
             free.push(match self.places[body] {
-                Some((lane, _)) if !self.is_driven(body) => Acceleration::free(
-                    cluster_body,
-                    &self.load_on(lane, &cluster_body.motion, self.moment(lane, time.value)),
-                ),
+                Some((lane, _)) if !self.is_driven(body) => {
+                    self.free_acceleration(body, lane, cluster_body, time.value)
+                }
                 Some(_) => Acceleration::zero(),
                 None => self.unmoved_acceleration(body, &cluster_body.motion),
             });

@@ -319,7 +319,12 @@ impl Simulation {
             motion.rotation * (self.body(body).properties.inv_inertia() * own)
         };
         let mut half = self.stage(cluster, &[], &[], (time, 0.5 * h));
+        let reduced = |body: usize| self.chart(body).filter(|chart| chart.is_reduced());
         for (&body, motion) in cluster.bodies.iter().zip(&mut half).filter(|(body, _)| moves(**body).is_some()) {
+            if let Some(chart) = reduced(body) {
+                chart.drift(motion, 0.5 * h);
+                continue;
+            }
             let l = motion.angular_momentum();
             let (v, w) = (motion.velocity, motion.angular_velocity);
             shift_by(motion, &(0.5 * h * v), &(0.5 * h * w));
@@ -329,6 +334,12 @@ impl Simulation {
         for (&body, motion) in cluster.bodies.iter().zip(&mut pushed) {
             let Some((lane, _)) = moves(body) else { continue };
             let load = self.load_on(lane, motion, self.moment(lane, time.value + 0.5 * h));
+            if reduced(body).is_some() {
+                let more = self.cluster_body(body, motion).mobility.times(&(h * load.force), &(h * load.torque));
+                (motion.velocity, motion.angular_velocity) =
+                    (motion.velocity + more.linear, motion.angular_velocity + more.angular);
+                continue;
+            }
             motion.velocity += h / motion.mass * load.force;
             motion.angular_velocity += h * inverse(body, motion, &load.torque);
         }
@@ -351,6 +362,11 @@ impl Simulation {
         let mut motions = cluster.motions.clone();
         for (k, &body) in cluster.bodies.iter().enumerate().filter(|(_, body)| moves(**body).is_some()) {
             (ends[k].velocity, ends[k].angular_velocity) = (after.velocities[k].linear, after.velocities[k].angular);
+            if let Some(chart) = reduced(body) {
+                motions[k] = ends[k];
+                chart.drift(&mut motions[k], 0.5 * h);
+                continue;
+            }
             let l = ends[k].angular_momentum();
             let (v, w) = (half[k].velocity + ends[k].velocity, half[k].angular_velocity + ends[k].angular_velocity);
             shift_by(&mut motions[k], &(0.5 * h * v), &(0.5 * h * w));

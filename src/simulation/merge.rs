@@ -93,9 +93,11 @@ impl Simulation {
         Some([a?, b?])
     }
 
-    /// Largest distance of a body's matter from its unit's centre of mass [m].
+    /// Largest distance of a body's matter from the point whose motion is looked at [m]: its unit's centre of mass, or a
+    /// point of it that rests.
     pub(super) fn reach_from_center(&self, body: usize) -> f64 {
-        self.body(body).radius + self.pose_in_unit(body).map_or(0.0, |pose| pose.position.norm())
+        let arm = self.chart(body).map_or(0.0, |chart| chart.point_body().norm());
+        self.body(body).radius + self.pose_in_unit(body).map_or(arm, |pose| pose.position.norm())
     }
 
     /// Whether two bodies of the scene may meet.

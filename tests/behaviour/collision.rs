@@ -140,11 +140,18 @@ fn a_body_that_starts_in_the_floor_is_refused_with_its_depth() {
 fn contacts_that_cannot_be_answered_are_refused_before_running() {
     let refusal = |body: Body| floor_and(body).compile(&options()).unwrap_err().to_string();
     let cube = || Body::new("cube", Cuboid::new([0.1; 3])).mass(1.0).position([0.0, 0.0, 1.0]);
+    let planar = || cube().freedom(Freedom::planar([0.0, 1.0, 0.0]));
     assert_eq!(
-        refusal(cube().freedom(Freedom::planar([0.0, 1.0, 0.0]))),
-        "body cube: contact of a planar body cannot be answered; where it never meets another, say collides = false of it"
+        refusal(planar().response(Response::Stick)),
+        "body cube: with freedom planar it cannot stick, as it would to floor; let both bounce, or where it never meets another, \
+         say collides = false of it"
     );
-    assert!(floor_and(cube().freedom(Freedom::planar([0.0, 1.0, 0.0])).collides(false)).compile(&options()).is_ok());
+    // the other one may say so, and who never meets it may be what it wants
+    let mut sticky = floor_and(planar());
+    assert!(sticky.compile(&options()).is_ok());
+    sticky.bodies[0].response = Response::Stick;
+    assert!(sticky.compile(&options()).unwrap_err().to_string().contains("cannot stick, as it would to floor"));
+    assert!(floor_and(planar().response(Response::Stick).collides(false)).compile(&options()).is_ok());
 }
 
 #[test]

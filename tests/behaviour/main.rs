@@ -17,6 +17,7 @@ mod meeting;
 mod order;
 mod prescribed;
 mod promises;
+mod reduced;
 mod rest;
 mod rolling;
 mod series;
