@@ -30,6 +30,8 @@ use crate::trajectory::Heat;
 const STEP: f64 = 0.04;
 /// How much faster than μ a friction may change a slip, at a corner far from the centre of mass [-].
 const STIFF: f64 = 4.0;
+/// Turn of a slip about the normal, in a step, up to which it counts as going straight on [rad]: nothing is stiff in it.
+const STRAIGHT: f64 = 1.0e-9;
 /// How often a step is shortened for what happens within it [-]: a slip that ends, then a touch before it.
 const SHORTER: usize = 8;
 /// A step is short below this part of its length [-]; so many in a row are too many.
@@ -94,6 +96,24 @@ impl Simulation {
                 Slips::Beginning => kind = Kind::Implicit,
             }
             step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
+        }
+
+        // shorter, where a contact is let go or begins to slip. It is found by steps of several lengths: forces that
+        // end within a step make its polynomials useless for that
+        if step.lets_go() {
+            let (mut low, mut high, mut last) = (0.0, h, None);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                let tried = self.try_step(cluster, part, &led, &gaps, scales, time, middle, kind)?;
+                if tried.lets_go() {
+                    (high, last) = (middle, Some(tried));
+                } else {
+                    low = middle;
+                }
+            }
+            if let Some(last) = last.filter(|_| low > 0.0) {
+                (h, step) = (high, last);
+            }
         }
 
         // steps that stay short for ever: touches that follow each other without end
@@ -216,10 +236,12 @@ impl Simulation {
     ) -> Result<Step, SimulationError> {
         let is_driver = |k: usize| self.body(cluster.bodies[k]).motion.is_some();
         let (mut heat, mut work, mut first) = (Passed::default(), Passed::default(), Vec::new());
+        let mut starts = Vec::new();
         let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
         if kind == Kind::Implicit {
             let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
             let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, time)?;
+            starts.clone_from(&held.rest.holds);
             (first, heat.power[0], work.power[0]) = (rates, held.heat(), held.drive(&cluster.motions, is_driver));
             let motions;
             (motions, heat.joules, work.joules) = self.implicit(cluster, part, time, h)?;
@@ -247,6 +269,7 @@ impl Simulation {
                 }
                 if first.is_empty() {
                     first.clone_from(&rates);
+                    starts.clone_from(&held.rest.holds);
                     [heat.power[0], work.power[0]] = power;
                 }
                 k = rates;
@@ -296,7 +319,7 @@ impl Simulation {
         }
         let last = self.rates_under(led, &motions, &y1, &held, time + h);
         let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
-        Ok(Step { h, kind, ends, motions, heat, work, carrying })
+        Ok(Step { h, kind, ends, motions, heat, work, carrying, holds: [starts, held.rest.holds] })
     }
 
     /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
@@ -371,7 +394,8 @@ impl Simulation {
             let contact = &cluster.contacts[i];
             let change = STIFF * contact.friction * scales.pull;
             let start = contact.slip(&cluster.motions);
-            let end = anchor.support(contact, &bodies).contact.slip(&step.motions);
+            let moved = anchor.support(contact, &bodies).contact;
+            let end = moved.slip(&step.motions);
             let speed = across(&start, &contact.normals[0]).norm();
             if speed >= change * step.h || (way.dot(&end) < way.dot(&start) && end.norm() <= scales.slip) {
                 continue; // fast enough, or come to its end
@@ -379,7 +403,7 @@ impl Simulation {
             if way.dot(&end) < way.dot(&start) && speed > scales.slip {
                 shortest = shortest.min(speed / change);
             } else {
-                begins = true;
+                begins |= moved.normals[0].cross(way).dot(&end).abs() > STRAIGHT * end.norm();
             }
         }
         if begins {
@@ -447,8 +471,8 @@ impl Simulation {
             .collect()
     }
 
-    /// The first instant within a step, from its start [s], at which a slip turns round or another point of a
-    /// pair touches; else its length.
+    /// The first instant within a step, from its start [s], at which a slip turns round, a contact comes to its end, or
+    /// another point of a pair touches; else its length.
     fn first_end(
         &self,
         cluster: &Cluster,
@@ -485,14 +509,23 @@ impl Simulation {
             if along(&step.motions) >= 0.0 || along(&cluster.motions) <= 0.0 {
                 continue;
             }
-            let (mut low, mut high) = (0.0, step.h);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if along(&motions_at(middle)) > 0.0 { low = middle } else { high = middle }
-            }
-            first = first.min(high);
+            first = first.min(end_of(step.h, &|s| Ok(along(&motions_at(s)) > 0.0))?);
         }
 
+        // walls that a contact passes
+        for touching in &cluster.touching {
+            let slack = self.eps(touching.bodies[0], touching.bodies[1]);
+            for i in touching.contacts.clone().filter(|i| part.contacts.contains(i)) {
+                let (Some(anchor), contact) = (&cluster.anchors[i], &cluster.contacts[i]) else { continue };
+                for wall in &cluster.walls[i] {
+                    let goes_on =
+                        |motions: &[BodyMotion]| anchor.inside(wall, &motions[contact.a], &motions[contact.b]) > -slack;
+                    if goes_on(&cluster.motions) && !goes_on(&step.motions) {
+                        first = first.min(end_of(step.h, &|s| Ok(goes_on(&motions_at(s))))?);
+                    }
+                }
+            }
+        }
         // touches: points that come below the surface, by more than those that carry seem to within the step
         for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
             let pair = touching.bodies;
@@ -527,6 +560,20 @@ impl Simulation {
         }
         Ok(first)
     }
+}
+
+/// The end of what holds at the start of a step and not after the time `end` [s]: just behind it.
+fn end_of(end: f64, holds: &dyn Fn(f64) -> Result<bool, SimulationError>) -> Result<f64, SimulationError> {
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if holds(middle)? {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(high)
 }
 
 /// How far below the surface a point must come to count as touching, in ε [-].

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::cluster::Cluster;
+use crate::contact::rest::Hold;
 use crate::freedom::Chart;
 use crate::math::sum::Time;
 use crate::state::BodyMotion;
@@ -61,6 +62,18 @@ pub(super) struct Step {
     pub(super) work: Passed,
     /// The contacts that carry at its end, as places in the cluster's list.
     pub(super) carrying: Vec<usize>,
+    /// What each contact does at its start and at its end.
+    pub(super) holds: [Vec<Hold>; 2],
+}
+
+impl Step {
+    /// Whether a contact that carries at the start is let go at the end, or one that sticks slides.
+    pub(super) fn lets_go(&self) -> bool {
+        let [starts, ends] = &self.holds;
+        starts.iter().zip(ends).any(|hold| {
+            matches!(hold, (Hold::Stick, Hold::Slide(_) | Hold::Separate) | (Hold::Slide(_), Hold::Separate))
+        })
+    }
 }
 
 impl Simulation {

@@ -352,7 +352,7 @@ fn the_acceleration_of_the_gap_is_its_second_derivative() {
         ("ball on ball", Support::ball_on_ball(contact(), &bodies, ra, rb), {
             Box::new(move |t| (carried(1, &(p + rb * n), t) - carried(0, &(p - ra * n), t)).norm() - ra - rb)
         }),
-        ("edge on edge", Support::edge_on_edge(contact(), &bodies, &edge_a, &edge_b), {
+        ("edge on edge", Support::line_on_line(contact(), &bodies, [&edge_a, &edge_b], [0.0; 2]), {
             Box::new(move |t| {
                 let across = side * direction(0, &edge_a, t).cross(&direction(1, &edge_b, t));
                 across.normalize().dot(&(carried(1, &p, t) - carried(0, &p, t)))
