@@ -6,6 +6,7 @@
 //!               gap = ∓d·(p − face) − R or − h
 //! on a line     a ball about p on a round about a line: n from the line to p, across it,
 //!               gap = |p − line| − r_p − r_line
+//! on a rim      the same where the line is a circle:   gap = |p − circle| − r_p
 //! two balls     n along the line of centres,   gap = |p_b − p_a| − r_a − r_b
 //! two lines     n across both,   gap = n·(p_b − p_a) − r_a − r_b
 //! ```
@@ -14,8 +15,8 @@
 //! point of two faces that lie on each other: their common plane is what matters, and it turns with one of them. The
 //! side of a cylinder or a capsule is a line; on a face, or along another line, it touches as two balls, about two
 //! points of its axis. An ellipsoid's Q has the squares of its semi-axes; a rim of radius r about the axis e is the
-//! ellipsoid without height, Q = r² (1 − e eᵀ). A cone on its side rests on its apex and its rim. What rolls on a curve
-//! that is no ball and no line, and rims and ellipsoids that roll over edges, have no anchor here.
+//! ellipsoid without height, Q = r² (1 − e eᵀ). A cone on its side rests on its apex and its rim. Rims and
+//! ellipsoids that meet anything but a face, and what meets the side of a cone or an ellipsoid, have no anchor here.
 //!
 //! A ball on a polyhedron touches the feature in whose Voronoi region its centre is (Lin–Canny 1991). The regions'
 //! walls are planes, and where the centre passes one the contact ends and another begins: at an edge, at a corner, back
@@ -67,6 +68,21 @@ pub enum Anchor {
         /// Radius of the ball, and of the round about the line [m].
         radii: [f64; 2],
     },
+    /// A ball of body b (or of a, where `of_b` is false) on a circle of the other body.
+    OnRim {
+        /// Whether the ball is b's.
+        of_b: bool,
+        /// The ball's centre.
+        center: Vector3,
+        /// Its radius [m].
+        radius: f64,
+        /// The circle's centre.
+        middle: Vector3,
+        /// Its unit axis.
+        axis: Vector3,
+        /// Its radius [m].
+        rim: f64,
+    },
     /// Rounds about two lines that cross.
     Lines {
         /// A point of each, of a and b.
@@ -80,25 +96,32 @@ pub enum Anchor {
     },
 }
 
-/// A plane at which a contact ends: it goes on where the place that it is told by ([`Anchor::place_for`]) is on the
-/// positive side.
+/// Where a contact ends: it goes on where the place that it is told by ([`Anchor::place_for`]) is on the positive side of
+/// a plane, or within a round about an axis, or beyond it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
     /// Whether it is b's, else a's.
     pub of_b: bool,
-    /// Its unit normal, in the axes of its body.
+    /// The plane's unit normal, or the axis, in the axes of its body.
     pub normal: Vector3,
-    /// Where it is along the normal, from the body's centre of mass [m].
+    /// Where the plane is along the normal, from the body's centre of mass; or the radius of the round, negative where
+    /// the contact is beyond it [m].
     pub offset: f64,
+    /// A point of the axis of a round, from the body's centre of mass [m].
+    pub about: Option<Vector3>,
 }
 
 impl Wall {
     /// How far a place, world axes, is on the positive side where the body is there [m].
     fn height(&self, body: &BodyMotion, place: &Vector3) -> f64 {
-        self.normal.dot(&body.rotation.tr_mul(&(place - body.position))) - self.offset
+        let place = body.rotation.tr_mul(&(place - body.position));
+        match self.about {
+            None => self.normal.dot(&place) - self.offset,
+            Some(about) => self.offset - self.offset.signum() * (place - about).cross(&self.normal).norm(),
+        }
     }
 
-    /// The same plane with its sides swapped.
+    /// The same with its sides swapped.
     pub(super) fn turned_over(self) -> Self {
         Self { normal: -self.normal, offset: -self.offset, ..self }
     }
@@ -243,7 +266,7 @@ impl Anchor {
                     contact: at(center_a + radii[0] * n, n),
                 }
             }
-            Self::OnLine { of_b, center, radii: [radius, _], .. } => {
+            Self::OnLine { of_b, center, radii: [radius, _], .. } | Self::OnRim { of_b, center, radius, .. } => {
                 let ball = if *of_b { b } else { a };
                 let (m, turning) = self.off_line(a, b);
                 let center = ball.point(center);
@@ -272,7 +295,7 @@ impl Anchor {
         match self {
             Self::OnFace { of_b, normal, .. } => (if *of_b { a } else { b }).rotation * normal,
             Self::Balls { centers, .. } => (b.point(&centers[1]) - a.point(&centers[0])).normalize(),
-            Self::OnLine { of_b, .. } => {
+            Self::OnLine { of_b, .. } | Self::OnRim { of_b, .. } => {
                 let (m, _) = self.off_line(a, b);
                 if *of_b { m } else { -m }
             }
@@ -290,7 +313,7 @@ impl Anchor {
                 let (d, rate) = towards_face(*of_b, normal, a, b);
                 rolls.run(&d, &rate).norm() / rolls.foremost(&d).1.norm()
             }
-            Self::OnLine { .. } => self.off_line(a, b).1.norm(),
+            Self::OnLine { .. } | Self::OnRim { .. } => self.off_line(a, b).1.norm(),
             Self::OnFace { .. } | Self::Balls { .. } | Self::Lines { .. } => 0.0,
         }
     }
@@ -319,6 +342,7 @@ impl Anchor {
                 let (foot, along) = (line.point(foot), line.rotation * along);
                 foot + along.dot(&(center - foot)) * along
             }
+            Self::OnRim { of_b, center, .. } => (if *of_b { b } else { a }).point(center),
             Self::Lines { points, along, .. } => {
                 let (e, f) = (a.rotation * along[0], b.rotation * along[1]);
                 let (p, q) = (a.point(&points[0]), b.point(&points[1]));
@@ -335,21 +359,37 @@ impl Anchor {
         wall.height(if wall.of_b { b } else { a }, &self.place_for(wall.of_b, a, b))
     }
 
-    /// The unit vector from a line to the ball on it, across the line, and its rate [1/s].
+    /// The unit vector from a line or a circle to the ball on it, across it, and its rate [1/s].
     fn off_line(&self, a: &BodyMotion, b: &BodyMotion) -> (Vector3, Vector3) {
-        let Self::OnLine { of_b, center, foot, along, .. } = self else {
-            return (Vector3::zeros(), Vector3::zeros());
+        let of = |of_b: bool| if of_b { (b, a) } else { (a, b) };
+        let turned = |v: Vector3, rate: Vector3, carrier: &BodyMotion| {
+            let length = v.norm();
+            let m = v / length;
+            (m, (rate - m.dot(&rate) * m) / length + carrier.angular_velocity.cross(&m))
         };
-        let (ball, line) = if *of_b { (b, a) } else { (a, b) };
-        let (center, foot, e) = (ball.point(center), line.point(foot), line.rotation * along);
-        let (from, turning) = (center - foot, line.angular_velocity.cross(&e));
-        let passing = ball.velocity_at(&center) - line.velocity_at(&foot);
-        let (s, running) = (e.dot(&from), e.dot(&passing) + turning.dot(&from));
-        let across = from - s * e;
-        let length = across.norm();
-        let m = across / length;
-        let rate = passing - running * e - s * turning;
-        (m, (rate - m.dot(&rate) * m) / length)
+        match self {
+            Self::OnLine { of_b, center, foot, along, .. } => {
+                let (ball, line) = of(*of_b);
+                let (center, e) = (ball.point(center), line.rotation * along);
+                let from = center - line.point(foot);
+
+                // as the line's body sees it
+                let passing = ball.velocity_at(&center) - line.velocity_at(&center);
+                turned(from - e.dot(&from) * e, passing - e.dot(&passing) * e, line)
+            }
+            Self::OnRim { of_b, center, middle, axis, rim, .. } => {
+                let (ball, carrier) = of(*of_b);
+                let (center, e) = (ball.point(center), carrier.rotation * axis);
+                let from = center - carrier.point(middle);
+                let passing = ball.velocity_at(&center) - carrier.velocity_at(&center);
+                let outward = from - e.dot(&from) * e;
+                let distance = outward.norm();
+                let u = outward / distance;
+                let swinging = (passing - e.dot(&passing) * e - u.dot(&passing) * u) / distance;
+                turned(from - *rim * u, passing - *rim * swinging, carrier)
+            }
+            Self::OnFace { .. } | Self::Balls { .. } | Self::Lines { .. } => (Vector3::zeros(), Vector3::zeros()),
+        }
     }
 
     /// The gap between the bodies at the contact [m].
@@ -368,6 +408,12 @@ impl Anchor {
                 let (ball, line) = if *of_b { (b, a) } else { (a, b) };
                 let from = ball.point(center) - line.point(foot);
                 from.cross(&(line.rotation * along)).norm() - radii[0] - radii[1]
+            }
+            Self::OnRim { of_b, center, radius, middle, axis, rim } => {
+                let (ball, carrier) = if *of_b { (b, a) } else { (a, b) };
+                let from = ball.point(center) - carrier.point(middle);
+                let e = carrier.rotation * axis;
+                libm::hypot(from.cross(&e).norm() - rim, e.dot(&from)) - radius
             }
             Self::Lines { points, along, radii, side } => {
                 let across = (a.rotation * along[0]).cross(&(b.rotation * along[1]));
@@ -407,6 +453,7 @@ struct Line {
 enum Met {
     Face { foot: Vector3, outward: Vector3 },
     Line(Line),
+    Rim { middle: Vector3, axis: Vector3, radius: f64 },
     Point { center: Vector3, radius: f64 },
 }
 
@@ -435,6 +482,14 @@ impl Meeting {
                 along: other.motion.rotation.tr_mul(&line.along),
                 radii: [ball.radius, line.radius],
             },
+            Met::Rim { middle, axis, radius } => Anchor::OnRim {
+                of_b,
+                center,
+                radius: ball.radius,
+                middle: other.own(&middle),
+                axis: other.motion.rotation.tr_mul(&axis),
+                rim: radius,
+            },
             Met::Point { center: point, radius } => {
                 let point = other.own(&point);
                 let (centers, radii) = if of_b {
@@ -460,7 +515,7 @@ impl Faced<'_> {
         let normal = self.turned(&wall.normal);
         let through = self.pose.point(&(about + wall.offset * wall.normal));
         let normal_own = self.motion.rotation.tr_mul(&normal);
-        Wall { of_b, normal: normal_own, offset: normal_own.dot(&self.own(&through)) }
+        Wall { of_b, normal: normal_own, offset: normal_own.dot(&self.own(&through)), about: None }
     }
 
     /// The ball that touches in one of `count` points, world axes, whose outer normal is `d`.
@@ -511,19 +566,32 @@ impl Faced<'_> {
                 Some(Meeting { met: Met::Line(side), walls })
             }
             Surface::Cylinder(cylinder) => {
-                if self.has_face(n) {
-                    let z = self.turned(&Vector3::z());
-                    let outward = if z.dot(n) > 0.0 { z } else { -z };
-                    let foot = self.pose.position + cylinder.half_height * outward;
-                    return Some(Meeting { met: Met::Face { foot, outward }, walls: Vec::new() });
-                }
                 let side = self.side(cylinder.half_height, cylinder.radius);
-                let s = side.along.dot(&(ball.center - side.from));
+                let from = ball.center - self.pose.position;
+                let (s, away) = (side.along.dot(&from), side.along.cross(&from).norm());
+                let outward = if s > 0.0 { side.along } else { -side.along };
+                let middle = self.pose.position + cylinder.half_height * outward;
                 if ball.line.is_some() {
-                    return Some(Meeting { met: Met::Line(side), walls: Vec::new() });
+                    let met = if self.has_face(n) { Met::Face { foot: middle, outward } } else { Met::Line(side) };
+                    return Some(Meeting { met, walls: Vec::new() });
                 }
-                let walls = self.ends(false, &side);
-                (s >= -0.5 * slack && s <= side.length + 0.5 * slack).then(|| Meeting { met: Met::Line(side), walls })
+
+                // on the side, on a cap, or on the rim between them
+                let around = Wall {
+                    of_b: false,
+                    normal: self.motion.rotation.tr_mul(&side.along),
+                    offset: cylinder.radius,
+                    about: Some(self.own(&self.pose.position)),
+                };
+                let ends = self.ends(false, &side);
+                if s.abs() <= cylinder.half_height + 0.5 * slack {
+                    return Some(Meeting { met: Met::Line(side), walls: ends });
+                }
+                if away <= cylinder.radius + 0.5 * slack {
+                    return Some(Meeting { met: Met::Face { foot: middle, outward }, walls: vec![around] });
+                }
+                let walls = vec![around.turned_over(), ends[usize::from(s > 0.0)].turned_over()];
+                Some(Meeting { met: Met::Rim { middle, axis: outward, radius: cylinder.radius }, walls })
             }
             Surface::Cone(cone) if self.has_face(n) => {
                 let outward = -self.turned(&Vector3::z());
@@ -590,7 +658,7 @@ impl Faced<'_> {
     fn ends(&self, of_b: bool, line: &Line) -> Vec<Wall> {
         let wall = |at: Vector3, along: Vector3| {
             let normal = self.motion.rotation.tr_mul(&along);
-            Wall { of_b, normal, offset: normal.dot(&self.own(&at)) }
+            Wall { of_b, normal, offset: normal.dot(&self.own(&at)), about: None }
         };
         vec![wall(line.from, line.along), wall(line.from + line.length * line.along, -line.along)]
     }

@@ -82,7 +82,8 @@ impl Region {
     /// The walls of the region, in the shape's axes from its centre.
     pub(super) fn walls(self, shape: &ConvexPolyhedron, line: Line<'_>) -> Vec<Wall> {
         let corner = |v: usize| Vector3::from(shape.vertices_about_center()[v]);
-        let through = |v: usize, normal: Vector3| Wall { of_b: false, normal, offset: normal.dot(&corner(v)) };
+        let through =
+            |v: usize, normal: Vector3| Wall { of_b: false, normal, offset: normal.dot(&corner(v)), about: None };
         let inward = |h: usize| {
             let edge = &shape.half_edges()[h];
             through(edge.origin as usize, edge.inward.into())

@@ -30,8 +30,8 @@ use crate::trajectory::Heat;
 const STEP: f64 = 0.04;
 /// How much faster than μ a friction may change a slip, at a corner far from the centre of mass [-].
 const STIFF: f64 = 4.0;
-/// Turn of a slip about the normal, in a step, up to which it counts as going straight on [rad]: nothing is stiff in it.
-const STRAIGHT: f64 = 1.0e-9;
+/// Turn of a slip about the normal, in a step, up to which it counts as going straight on [rad].
+const STRAIGHT: f64 = 1.0e-6;
 /// How often a step is shortened for what happens within it [-]: a slip that ends, then a touch before it.
 const SHORTER: usize = 8;
 /// A step is short below this part of its length [-]; so many in a row are too many.
@@ -93,6 +93,7 @@ impl Simulation {
             match self.slips(cluster, part, scales, &step) {
                 Slips::Fast => break,
                 Slips::Dying(suits) => h = suits.min(h),
+                Slips::Beginning if kind == Kind::Explicit => kind = Kind::Straight,
                 Slips::Beginning => kind = Kind::Implicit,
             }
             step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
@@ -237,10 +238,11 @@ impl Simulation {
         let is_driver = |k: usize| self.body(cluster.bodies[k]).motion.is_some();
         let (mut heat, mut work, mut first) = (Passed::default(), Passed::default(), Vec::new());
         let mut starts = Vec::new();
+        let straight = (kind == Kind::Straight).then_some(h);
         let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
         if kind == Kind::Implicit {
             let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
-            let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, time)?;
+            let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, None, time)?;
             starts.clone_from(&held.rest.holds);
             (first, heat.power[0], work.power[0]) = (rates, held.heat(), held.drive(&cluster.motions, is_driver));
             let motions;
@@ -260,7 +262,7 @@ impl Simulation {
                     })
                     .collect();
                 let motions = self.stage(cluster, led, &y, (time, at * h));
-                let (held, rates) = self.rates(cluster, part, led, &motions, &y, scales, time + at * h)?;
+                let (held, rates) = self.rates(cluster, part, led, &motions, &y, scales, straight, time + at * h)?;
                 let power = [held.heat(), held.drive(&motions, is_driver)];
                 heat.joules += weight / 6.0 * h * power[0];
                 work.joules += weight / 6.0 * h * power[1];
@@ -281,7 +283,7 @@ impl Simulation {
         if motions.iter().any(|motion| !motion.is_finite()) {
             return Err(self.failure_of(&cluster.bodies, time.value, Failure::Flight(FlightError::NotFinite)));
         }
-        let (held, _) = self.rates(cluster, part, led, &motions, &y1, scales, time + h)?;
+        let (held, _) = self.rates(cluster, part, led, &motions, &y1, scales, straight, time + h)?;
         [heat.power[1], work.power[1]] = [held.heat(), held.drive(&motions, is_driver)];
         let (mut rows, mut lifts, mut stops, mut carrying) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (i, &c) in part.contacts.iter().enumerate() {
@@ -403,7 +405,8 @@ impl Simulation {
             if way.dot(&end) < way.dot(&start) && speed > scales.slip {
                 shortest = shortest.min(speed / change);
             } else {
-                begins |= moved.normals[0].cross(way).dot(&end).abs() > STRAIGHT * end.norm();
+                let turns = moved.normals[0].cross(way).dot(&end).abs() > STRAIGHT * end.norm();
+                begins |= turns || step.kind == Kind::Explicit;
             }
         }
         if begins {
@@ -415,7 +418,8 @@ impl Simulation {
         }
     }
 
-    /// What the contacts do at these motions, and the rates of the numbers.
+    /// What the contacts do at these motions, and the rates of the numbers; in a straight step of this length [s], what
+    /// slides slowly goes on as it began.
     #[expect(clippy::too_many_arguments, reason = "what a stage is made of")]
     fn rates(
         &self,
@@ -425,6 +429,7 @@ impl Simulation {
         motions: &[BodyMotion],
         y: &[Vec<f64>],
         scales: &ContactScales,
+        straight: Option<f64>,
         time: Time,
     ) -> Result<(Held, Vec<Vec<f64>>), SimulationError> {
         // friction opposes the slip, on the side of the step's beginning
@@ -435,7 +440,8 @@ impl Simulation {
             let contact = now.as_ref().unwrap_or(contact);
             let slip = across(&contact.slip(motions), &contact.normals[0]);
             let speed = slip.norm();
-            Some(if speed > scales.slip { slip / speed * slip.dot(&way).signum() } else { way })
+            let least = straight.map_or(0.0, |h| STIFF * contact.friction * scales.pull * h);
+            Some(if speed > scales.slip.max(least) { slip / speed * slip.dot(&way).signum() } else { way })
         };
         let slides: Vec<Option<Vector3>> = part.contacts.iter().zip(&part.slides).map(slide).collect();
         let held = self.held(cluster, motions, &part.contacts, &slides, time)?;
@@ -499,7 +505,7 @@ impl Simulation {
         let mut first = step.h;
 
         // slips
-        let sliding = if step.kind == Kind::Explicit { &part.slides[..] } else { &[] };
+        let sliding = if step.kind != Kind::Implicit { &part.slides[..] } else { &[] };
         for (&i, way) in part.contacts.iter().zip(sliding) {
             let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
             let along = |motions: &[BodyMotion]| {

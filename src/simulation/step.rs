@@ -12,6 +12,8 @@ use crate::state::BodyMotion;
 pub(super) enum Kind {
     /// By the method of Runge and Kutta.
     Explicit,
+    /// By the same where friction opposes the way in which a slow slip began, not the slip: for one that goes straight on.
+    Straight,
     /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end,
     /// whose direction is stiff where the slip is slow.
     Implicit,

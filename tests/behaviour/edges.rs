@@ -35,25 +35,27 @@ fn integral(end: f64, f: impl Fn(f64) -> f64) -> f64 {
     (0..pieces).map(|k| h / 6.0 * (at(k, 0.0) + 4.0 * at(k, 0.5) + at(k, 1.0))).sum()
 }
 
-/// A body that turns about the edge by φ from the vertical, its inertia about it j m R² and its speed at φ = 0 v:
+/// A body whose centre turns about an edge, or the axis of a log, at the distance r by φ from the vertical, with j/2 m v²
+/// of energy at the speed v, which at φ = 0 is v₀:
 ///
 /// ```text
-/// ½ j R² φ˙² = ½ j v² + g R (1 − cos φ)        energy
-/// R φ˙² = g cos φ                              no force from the edge: it leaves
-/// cos φ = (2 + j v²/(g R))/(2 + j)
+/// ½ j r² φ˙² = ½ j v₀² + g r (1 − cos φ)       energy
+/// r φ˙² = g cos φ                              no force: it leaves
+/// cos φ = (2 + j v₀²/(g r))/(2 + j)
 /// ```
 struct Pivot {
     inertia: f64,
+    radius: f64,
     speed: f64,
 }
 
 impl Pivot {
     fn leaves_at(&self) -> f64 {
-        libm::acos(((2.0 + self.inertia * self.speed * self.speed / (G * R)) / (2.0 + self.inertia)).min(1.0))
+        libm::acos(((2.0 + self.inertia * self.speed * self.speed / (G * self.radius)) / (2.0 + self.inertia)).min(1.0))
     }
 
     fn rate(&self, angle: f64) -> f64 {
-        (self.speed * self.speed + 2.0 * G * R * (1.0 - libm::cos(angle)) / self.inertia).sqrt() / R
+        (self.speed * self.speed + 2.0 * G * self.radius * (1.0 - libm::cos(angle)) / self.inertia).sqrt() / self.radius
     }
 
     fn time_to(&self, angle: f64) -> f64 {
@@ -63,17 +65,17 @@ impl Pivot {
     /// Position, velocity and rate of turning at a time after it leaves.
     fn flying(&self, after: f64) -> (Vector3, Vector3, f64) {
         let angle = self.leaves_at();
-        let (position, velocity) = flown(angle, self.rate(angle), after);
+        let (position, velocity) = flown(self.radius, angle, self.rate(angle), after);
         (position, velocity, self.rate(angle))
     }
 }
 
-/// Position and velocity at a time after it leaves the edge at an angle, about which it turns at this rate.
-fn flown(angle: f64, rate: f64, after: f64) -> (Vector3, Vector3) {
+/// Position and velocity, from what it turns about at this distance and rate, at a time after it leaves it at an angle.
+fn flown(radius: f64, angle: f64, rate: f64, after: f64) -> (Vector3, Vector3) {
     let (sin, cos) = libm::sincos(angle);
-    let v = R * rate * Vector3::new(cos, 0.0, -sin);
+    let v = radius * rate * Vector3::new(cos, 0.0, -sin);
     let fall = Vector3::new(0.0, 0.0, -G);
-    (R * Vector3::new(sin, 0.0, cos) + after * v + 0.5 * after * after * fall, v + after * fall)
+    (radius * Vector3::new(sin, 0.0, cos) + after * v + 0.5 * after * after * fall, v + after * fall)
 }
 
 /// Where a function of an angle from 0 to 1 that begins below 0 comes above it.
@@ -95,7 +97,7 @@ fn a_ball_slides_over_an_edge_and_leaves_it_where_it_weighs_nothing() {
     // without friction j = 1: cos φ = 2/3 + v²/(3 g R); along the edge the velocity stays, and so does the spin. From
     // v² = g R on it flies off at once
     for (speed, along) in [(0.3, 0.0), (0.7, 0.2), (1.2, 0.3)] {
-        let pivot = Pivot { inertia: 1.0, speed };
+        let pivot = Pivot { inertia: 1.0, radius: R, speed };
         let spin = Vector3::new(0.3, 2.0, -0.5);
         let ball = Body::new("ball", Sphere::new(R)).position([FROM, 0.0, R]);
         let ball = ball.velocity([speed, along, 0.0]).angular_velocity(spin);
@@ -116,7 +118,7 @@ fn a_ball_slides_over_an_edge_and_leaves_it_where_it_weighs_nothing() {
 fn a_ball_rolls_over_an_edge_and_leaves_it_where_it_weighs_nothing() {
     // j = 7/5: cos φ = (10 + 7 v²/(g R))/17
     for speed in [0.3, 0.8] {
-        let pivot = Pivot { inertia: 1.4, speed };
+        let pivot = Pivot { inertia: 1.4, radius: R, speed };
         let ball = Body::new("ball", Sphere::new(R)).position([FROM, 0.0, R]);
         let ball = ball.velocity([speed, 0.0, 0.0]).angular_velocity([0.0, speed / R, 0.0]);
         let (rolls, turns, flies) = (-FROM / speed, pivot.time_to(pivot.leaves_at()), 0.05);
@@ -131,7 +133,7 @@ fn a_ball_rolls_over_an_edge_and_leaves_it_where_it_weighs_nothing() {
         // on its way about the edge
         for part in [0.1, 0.5, 0.99] {
             let angle = part * pivot.leaves_at();
-            let (position, velocity) = flown(angle, pivot.rate(angle), 0.0);
+            let (position, velocity) = flown(R, angle, pivot.rate(angle), 0.0);
             let ball = run.at(rolls + pivot.time_to(angle)).unwrap()[1];
             close(ball.position, position, CLOSE);
             close(ball.linear_momentum, velocity, 10.0 * CLOSE);
@@ -147,7 +149,7 @@ fn what_rolls_slips_before_it_leaves_an_edge() {
     let bodies =
         [(1.4, Body::new("ball", Sphere::new(R))), (1.5, Body::new("log", Cylinder::new(R, 0.2)).orientation(ACROSS))];
     for (inertia, body) in bodies {
-        let pivot = Pivot { inertia, speed };
+        let pivot = Pivot { inertia, radius: R, speed };
         let weight = |angle: f64, rate: f64| G * libm::cos(angle) - R * rate * rate;
         let holds = |angle: f64| friction * weight(angle, pivot.rate(angle));
         let slips = zero(|angle| (1.0 - 1.0 / inertia) * G * libm::sin(angle) - holds(angle));
@@ -178,7 +180,7 @@ fn what_rolls_slips_before_it_leaves_an_edge() {
         let flies = 0.05;
         let body = body.position([FROM, 0.0, R]).velocity([speed, 0.0, 0.0]).angular_velocity([0.0, speed / R, 0.0]);
         let run = run(&on_table(body, friction), -FROM / speed + time + flies);
-        let (position, velocity) = flown(leaves, rate, flies);
+        let (position, velocity) = flown(R, leaves, rate, flies);
         let body = last(&run)[1];
         close(body.position, position, CLOSE);
         close(body.velocity, velocity, 10.0 * CLOSE);
@@ -189,15 +191,15 @@ fn what_rolls_slips_before_it_leaves_an_edge() {
 
 #[test]
 fn a_cylinder_rolls_over_an_edge_along_its_axis() {
-    // j = 3/2: cos φ = (4 + 3 v²/(g R))/7; shorter than the edge, and longer. At a tolerance of 1e-7, of which speeds have
-    // ten times as much and rates of turning a hundred times
+    // j = 3/2: cos φ = (4 + 3 v²/(g R))/7; shorter than the edge, and longer. At a tolerance of 1e-8, of which speeds have
+    // a hundred times as much and rates of turning a thousand times
     for half_length in [0.2, 0.8] {
         let speed = 0.4;
-        let pivot = Pivot { inertia: 1.5, speed };
+        let pivot = Pivot { inertia: 1.5, radius: R, speed };
         let log = Body::new("log", Cylinder::new(R, half_length)).orientation(ACROSS).position([FROM, 0.0, R]);
         let log = log.velocity([speed, 0.0, 0.0]).angular_velocity([0.0, speed / R, 0.0]);
         let (rolls, turns, flies) = (-FROM / speed, pivot.time_to(pivot.leaves_at()), 0.05);
-        let options = RunOptions::tolerance(1e-7).estimate(false);
+        let options = RunOptions::tolerance(1e-8).estimate(false);
         let run = on_table(log, ROUGH).run(0.0..rolls + turns + flies, &options).unwrap();
         let (position, velocity, turning) = pivot.flying(flies);
         let log = last(&run)[1];
@@ -262,7 +264,7 @@ fn a_ball_rolls_over_a_ridge_and_down_the_other_side() {
     let pull = 5.0 / 7.0 * G * sin;
     let at_ridge = (speed * speed - 2.0 * pull * up).sqrt();
     let top = (at_ridge * at_ridge - 2.0 * G * R * (1.0 - cos) / 1.4).sqrt();
-    let turns = 2.0 * Pivot { inertia: 1.4, speed: top }.time_to(slope);
+    let turns = 2.0 * Pivot { inertia: 1.4, radius: R, speed: top }.time_to(slope);
     let end = (speed - at_ridge) / pull + turns + after;
     let down = at_ridge * after + 0.5 * pull * after * after;
     assert!(at_ridge * at_ridge < G * R * cos && top > 0.3, "{at_ridge} {top}");
@@ -286,4 +288,71 @@ fn a_ball_rolls_over_a_ridge_and_down_the_other_side() {
     close(ball.velocity, speed * Vector3::new(cos, 0.0, -sin), 10.0 * CLOSE);
     close(ball.angular_velocity, [0.0, speed / R, 0.0], 100.0 * CLOSE);
     assert!(run.energy().unwrap().drift() < 1e-9, "{:e}", run.energy().unwrap().drift());
+}
+
+#[test]
+fn a_ball_slides_past_the_end_of_an_edge_about_its_corner() {
+    // without friction: about the edge, along which the velocity stays, to its end; there on a sphere about the corner,
+    // r¨ = g − (v² + g·r)/R² r, by Runge and Kutta's method of order 4, 2,000 steps of which leave 1e-14
+    let (speed, along, to_end, about) = (0.4, 0.5, 0.1, 0.03);
+    let pivot = Pivot { inertia: 1.0, radius: R, speed };
+    let slides = -FROM / speed;
+    let turns = to_end / along - slides;
+    let angle = zero(|angle| pivot.time_to(angle) - turns);
+    assert!(turns > 0.0 && angle < pivot.leaves_at(), "{turns} {angle}");
+    let (position, velocity) = flown(R, angle, pivot.rate(angle), 0.0);
+    let fall = Vector3::new(0.0, 0.0, -G);
+    let rates = |[r, v]: [Vector3; 2]| [v, fall - (v.norm_squared() + fall.dot(&r)) / (R * R) * r];
+    let (mut y, steps) = ([position, velocity + along * Vector3::y()], 2_000);
+    let h = about / f64::from(steps);
+    for _ in 0..steps {
+        let ahead = |k: [Vector3; 2], part: f64| std::array::from_fn(|i| y[i] + part * h * k[i]);
+        let k1 = rates(y);
+        let k2 = rates(ahead(k1, 0.5));
+        let k3 = rates(ahead(k2, 0.5));
+        let k4 = rates(ahead(k3, 1.0));
+        y = std::array::from_fn(|i| y[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    }
+    let [r, v] = y;
+    assert!(v.norm_squared() + fall.dot(&r) < 0.0, "it leaves the corner before");
+
+    let ball = Body::new("ball", Sphere::new(R)).position([FROM, 0.5 - to_end, R]).velocity([speed, along, 0.0]);
+    let run = run(&on_table(ball, 0.0), slides + turns + about);
+    let ball = last(&run)[1];
+    close(ball.position, r + 0.5 * Vector3::y(), CLOSE);
+    close(ball.velocity, v, 10.0 * CLOSE);
+}
+
+#[test]
+fn a_ball_slides_down_a_log() {
+    // as about an edge, at the distance of both radii; along the log its velocity stays
+    let (radius, speed, along, flies) = (0.2, 0.4, 0.3, 0.05);
+    let pivot = Pivot { inertia: 1.0, radius: radius + R, speed };
+    let log = Body::new("log", Cylinder::new(radius, 1.0)).fixed().orientation(ACROSS);
+    let ball = Body::new("ball", Sphere::new(R)).mass(1.0).position([0.0, 0.0, radius + R]);
+    let mut scene = scene([log, ball.velocity([speed, along, 0.0])]);
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -G]));
+    let end = pivot.time_to(pivot.leaves_at()) + flies;
+    let run = run(&scene, end);
+    let (position, velocity, _) = pivot.flying(flies);
+    let ball = last(&run)[1];
+    close(ball.position, position + end * along * Vector3::y(), CLOSE);
+    close(ball.velocity, velocity + along * Vector3::y(), 10.0 * CLOSE);
+}
+
+#[test]
+fn a_ball_slides_off_a_round_table() {
+    // without friction: straight across the table, and about its rim, whose way off it takes, as about a straight edge
+    let speed = 0.4;
+    let pivot = Pivot { inertia: 1.0, radius: R, speed };
+    let table = Body::new("table", Cylinder::new(0.5, 0.2)).fixed().position([-0.5, 0.0, -0.2]);
+    let ball = Body::new("ball", Sphere::new(R)).mass(1.0).position([FROM, 0.0, R]).velocity([speed, 0.0, 0.0]);
+    let mut scene = scene([table, ball]);
+    scene.add_effect(UniformGravity::new([0.0, 0.0, -G]));
+    let flies = 0.05;
+    let run = run(&scene, -FROM / speed + pivot.time_to(pivot.leaves_at()) + flies);
+    let (position, velocity, _) = pivot.flying(flies);
+    let ball = last(&run)[1];
+    close(ball.position, position, CLOSE);
+    close(ball.velocity, velocity, 10.0 * CLOSE);
 }
