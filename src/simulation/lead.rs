@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! lead     a step of Runge and Kutta of order 4 with the contacts' forces in every stage, to its end or to the
-//!          first instant at which a slip turns round or another point of a pair touches
+//!          first instant at which a slip turns round or begins, a contact passes one of its walls or carries no
+//!          more, or another point of a pair touches
 //! ```
 //!
 //! After a step the gaps are what they were, and contacts that carry have no speed along their normals: what
