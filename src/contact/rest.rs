@@ -123,7 +123,7 @@ impl Support {
         let passing = b.velocity_at(&on_b) - a.velocity_at(&on_a) - (radius_a + radius_b) * normal_rate;
         let running = passing.cross(along_b).dot(&n) / side;
         let point_velocity = a.velocity_at(&on_a) + running * along_a + radius_a * normal_rate;
-        Self { point_velocity, normal_rate, contact }
+        Self { contact, point_velocity, normal_rate }
     }
 }
 

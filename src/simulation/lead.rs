@@ -100,22 +100,9 @@ impl Simulation {
             step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
         }
 
-        // shorter, where a contact is let go or begins to slip. It is found by steps of several lengths: forces that
-        // end within a step make its polynomials useless for that
         if step.lets_go() {
-            let (mut low, mut high, mut last) = (0.0, h, None);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                let tried = self.try_step(cluster, part, &led, &gaps, scales, time, middle, kind)?;
-                if tried.lets_go() {
-                    (high, last) = (middle, Some(tried));
-                } else {
-                    low = middle;
-                }
-            }
-            if let Some(last) = last.filter(|_| low > 0.0) {
-                (h, step) = (high, last);
-            }
+            step = self.until_let_go(cluster, part, &led, &gaps, scales, time, step)?;
+            h = step.h;
         }
 
         // steps that stay short for ever: touches that follow each other without end
@@ -166,6 +153,32 @@ impl Simulation {
         self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat, work });
         self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
         Ok(())
+    }
+
+    /// The step to the instant at which a contact is let go or begins to slip in it. It is found by steps of several
+    /// lengths: forces that end within a step make its polynomials useless for that.
+    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
+    fn until_let_go(
+        &self,
+        cluster: &Cluster,
+        part: &Part,
+        led: &[Numbers],
+        gaps: &[f64],
+        scales: &ContactScales,
+        time: Time,
+        whole: Step,
+    ) -> Result<Step, SimulationError> {
+        let (mut low, mut high, mut last) = (0.0, whole.h, None);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let tried = self.try_step(cluster, part, led, gaps, scales, time, middle, whole.kind)?;
+            if tried.lets_go() {
+                (high, last) = (middle, Some(tried));
+            } else {
+                low = middle;
+            }
+        }
+        Ok(last.filter(|_| low > 0.0).unwrap_or(whole))
     }
 
     /// How long a step of a part may be: as its loads and turning allow, and what is left up to the next switch
@@ -238,7 +251,7 @@ impl Simulation {
     ) -> Result<Step, SimulationError> {
         let is_driver = |k: usize| self.body(cluster.bodies[k]).motion.is_some();
         let (mut heat, mut work, mut first) = (Passed::default(), Passed::default(), Vec::new());
-        let mut starts = Vec::new();
+        let (mut starts, mut pushed) = (Vec::new(), Vec::new());
         let straight = (kind == Kind::Straight).then_some(h);
         let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
         if kind == Kind::Implicit {
@@ -247,7 +260,7 @@ impl Simulation {
             starts.clone_from(&held.rest.holds);
             (first, heat.power[0], work.power[0]) = (rates, held.heat(), held.drive(&cluster.motions, is_driver));
             let motions;
-            (motions, heat.joules, work.joules) = self.implicit(cluster, part, time, h)?;
+            (motions, heat.joules, work.joules, pushed) = self.implicit(cluster, part, time, h)?;
             for (n, y) in led.iter().zip(&mut y1) {
                 n.chart.encode(&motions[n.place].state(), y);
             }
@@ -290,7 +303,8 @@ impl Simulation {
         for (i, &c) in part.contacts.iter().enumerate() {
             let (contact, slip) = (&held.contacts[i], &held.slips[i]);
             let n = held.rest.normals[i];
-            if held.rest.holds[i] == Hold::Separate || n.dot(slip) > scales.slip {
+            let opens = n.dot(slip) > scales.slip && !pushed.get(i).is_some_and(|pushed| *pushed);
+            if held.rest.holds[i] == Hold::Separate || opens {
                 continue;
             }
             let gap = cluster.anchors[c].map_or(gaps[i], |a| a.gap(&motions[contact.a], &motions[contact.b]));
@@ -326,7 +340,8 @@ impl Simulation {
     }
 
     /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
-    /// contacts half way, and the heat of its impulses [J]. Momenta stay where nothing acts:
+    /// contacts half way, the heat and the work of its impulses [J], and which contacts have some. Momenta stay where
+    /// nothing acts:
     ///
     /// ```text
     /// L⁺ = L + h M + Σ r × j        ω = I⁻¹ L with I half way        x⁺ = x + ½ h (v + v⁺)
@@ -337,7 +352,7 @@ impl Simulation {
         part: &Part,
         time: Time,
         h: f64,
-    ) -> Result<(Vec<BodyMotion>, f64, f64), SimulationError> {
+    ) -> Result<(Vec<BodyMotion>, f64, f64, Vec<bool>), SimulationError> {
         // half way, with the momenta of the start, and then with what the loads add to them
         let moves = |body: usize| self.places[body].filter(|_| !self.is_driven(body));
         let inverse = |body: usize, motion: &BodyMotion, l: &Vector3| {
@@ -385,7 +400,8 @@ impl Simulation {
         }
         let slips = contacts.iter().map(|contact| contact.slip(&half) + contact.slip(&ends));
         let heat = -slips.zip(&after.impulses).map(|(u, j)| 0.5 * j.dot(&u)).sum::<f64>();
-        Ok((motions, heat, after.work))
+        let pushed = after.impulses.iter().map(|j| *j != Vector3::zeros()).collect();
+        Ok((motions, heat, after.work, pushed))
     }
 
     /// How the slips of a step compare with what friction changes in it.
@@ -506,7 +522,7 @@ impl Simulation {
         let mut first = step.h;
 
         // slips
-        let sliding = if step.kind != Kind::Implicit { &part.slides[..] } else { &[] };
+        let sliding = if step.kind == Kind::Implicit { &[] } else { &part.slides[..] };
         for (&i, way) in part.contacts.iter().zip(sliding) {
             let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
             let along = |motions: &[BodyMotion]| {
