@@ -8,12 +8,14 @@
 //! ```
 //!
 //! so the contact's normals are the n whose s(n) is within ε of the signed distance. Tried are, exactly, the
-//! normals of the faces and the products of the edges that hold the closest points:
+//! normals of the faces that hold the closest points, the products of the edges and axes of round sides that do, and
+//! what is across an axis to another, or to an edge, along it:
 //!
 //! | normals found | contact |
 //! |---|---|
 //! | one direction | the patches foremost along it, cut with each other: polygon, segment or point |
 //! | several | the cone that they span: vertex on vertex, vertex on edge, parallel edges |
+//! | several, on a round side | the one with the largest s |
 //! | none (round bodies) | the normal of the closest points |
 //!
 //! The patches of both bodies (all that lies within ε of foremost, see [`Surface`]) meet in
@@ -158,13 +160,19 @@ impl Pair<'_, '_> {
         let slack = 2.0 * self.eps;
         let mut tried = self.a.flat_at(near_a, slack);
         tried.extend(self.b.flat_at(near_b, slack).iter().map(|n| -self.b_in_a.vector(n)));
-        for e in self.a.edges_at(near_a, slack) {
-            for f in self.b.edges_at(near_b, slack) {
-                let across = e.cross(&self.b_in_a.vector(&f));
+        let mut is_round = false;
+        let lines_of_b = self.b.lines_at(near_b, slack);
+        for e in self.a.lines_at(near_a, slack) {
+            for f in &lines_of_b {
+                let across = e.direction.cross(&self.b_in_a.vector(&f.direction));
                 let length = across.norm();
                 if length > PARALLEL {
                     tried.extend([across / length, -across / length]);
+                } else if e.is_round || f.is_round {
+                    let from = self.b_in_a.point(&f.from) - e.from;
+                    tried.extend((from - e.direction.dot(&from) * e.direction).try_normalize(0.0));
                 }
+                is_round |= e.is_round || f.is_round;
             }
         }
         let size = self.size();
@@ -179,6 +187,10 @@ impl Pair<'_, '_> {
                 Some(_) => {}
                 None => kept.push((separation, n)),
             }
+        }
+        if is_round {
+            kept.sort_by(|a, b| b.0.total_cmp(&a.0));
+            kept.truncate(1);
         }
         kept.into_iter().map(|(_, n)| n).collect()
     }

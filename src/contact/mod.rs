@@ -41,6 +41,7 @@ pub mod manifold;
 mod patch;
 mod problem;
 mod reflection;
+mod region;
 pub mod rest;
 pub mod solver;
 pub mod stick;

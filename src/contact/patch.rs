@@ -39,6 +39,14 @@ pub(super) struct Corner {
     pub(super) vertex: Option<usize>,
 }
 
+/// A straight line on a surface, or the axis of a side that is round about it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    pub(super) from: Vector3,
+    pub(super) direction: Vector3,
+    pub(super) is_round: bool,
+}
+
 impl Surface<'_> {
     /// How far the surface reaches along a unit direction of its own axes [m].
     pub(super) fn reach(&self, d: &Vector3) -> f64 {
@@ -134,20 +142,31 @@ impl Surface<'_> {
         }
     }
 
-    /// Directions of the edges that pass a point of the surface within `eps`, own axes.
-    pub(super) fn edges_at(&self, p: &Vector3, eps: f64) -> Vec<Vector3> {
-        let Self::Polyhedron(body) = self else { return Vec::new() };
-        let q = p - Vector3::from(body.center());
-        let mut directions = Vec::new();
-        for (e, edge) in body.edges().iter().enumerate() {
-            let direction = Vector3::from(edge.direction);
-            let from = q - Vector3::from(body.vertices_about_center()[body.edge_vertices(e)[0]]);
-            let along = from.dot(&direction).clamp(0.0, edge.length);
-            if (from - along * direction).norm() <= eps {
-                directions.push(direction);
+    /// The lines that run past a point of the surface: edges within `eps` of it, and the axis of the side that it is on;
+    /// own axes.
+    pub(super) fn lines_at(&self, p: &Vector3, eps: f64) -> Vec<Line> {
+        let axis = |half_height: f64, radius: f64| {
+            let beside = p.z.abs() <= half_height + eps && libm::hypot(p.x, p.y) >= radius - eps;
+            beside.then(|| Line { from: Vector3::zeros(), direction: Vector3::z(), is_round: true })
+        };
+        match self {
+            Self::Cylinder(c) => axis(c.half_height, c.radius).into_iter().collect(),
+            Self::Capsule(c) => axis(c.half_height, c.radius).into_iter().collect(),
+            Self::Polyhedron(body) => {
+                let center = Vector3::from(body.center());
+                let mut lines = Vec::new();
+                for (e, edge) in body.edges().iter().enumerate() {
+                    let direction = Vector3::from(edge.direction);
+                    let from = center + Vector3::from(body.vertices_about_center()[body.edge_vertices(e)[0]]);
+                    let along = (p - from).dot(&direction).clamp(0.0, edge.length);
+                    if (p - from - along * direction).norm() <= eps {
+                        lines.push(Line { from, direction, is_round: false });
+                    }
+                }
+                lines
             }
+            _ => Vec::new(),
         }
-        directions
     }
 
     /// The face of a polyhedron that holds these vertices and faces most along a direction of its axes.

@@ -115,17 +115,28 @@ impl Support {
         Self { point_velocity: center_a + radius_a * normal_rate, normal_rate, contact }
     }
 
-    /// Two edges that cross, of these directions in world axes: the point stays on both.
-    pub fn edge_on_edge(contact: Contact, bodies: &[ClusterBody], edge_a: &Vector3, edge_b: &Vector3) -> Self {
+    /// Rounds about two lines that cross, of these directions in world axes and radii [m], 0 of an edge: the point
+    /// stays between the points of the lines that are nearest to each other.
+    pub fn line_on_line(
+        contact: Contact,
+        bodies: &[ClusterBody],
+        [along_a, along_b]: [&Vector3; 2],
+        [radius_a, radius_b]: [f64; 2],
+    ) -> Self {
         let (a, b, n) = (&bodies[contact.a].motion, &bodies[contact.b].motion, contact.normals[0]);
-        let across = edge_a.cross(edge_b);
+        let across = along_a.cross(along_b);
         let side = across.dot(&n);
-        let turning = a.angular_velocity.cross(edge_a).cross(edge_b) + edge_a.cross(&b.angular_velocity.cross(edge_b));
+        let turning =
+            a.angular_velocity.cross(along_a).cross(along_b) + along_a.cross(&b.angular_velocity.cross(along_b));
         let rate = turning / side;
         let normal_rate = rate - n.dot(&rate) * n;
-        let slip = b.velocity_at(&contact.point) - a.velocity_at(&contact.point);
-        let along = slip.cross(edge_b).dot(&n) / side;
-        Self { point_velocity: a.velocity_at(&contact.point) + along * edge_a, normal_rate, contact }
+
+        // how fast the nearest point runs along a's line
+        let (on_a, on_b) = (contact.point - radius_a * n, contact.point + radius_b * n);
+        let passing = b.velocity_at(&on_b) - a.velocity_at(&on_a) - (radius_a + radius_b) * normal_rate;
+        let running = passing.cross(along_b).dot(&n) / side;
+        let point_velocity = a.velocity_at(&on_a) + running * along_a + radius_a * normal_rate;
+        Self { contact, point_velocity, normal_rate }
     }
 }
 
@@ -278,7 +289,10 @@ fn solve(
         } else if let Some(s) = slide[k] {
             Hold::Slide(frames[i].vector([0.0, s[0], s[1]]))
         } else if starting > nothing {
-            Hold::Slide(frames[i].vector([0.0, a[1] / starting, a[2] / starting]))
+            // against the friction, which tells the way while the slip is still too slow to
+            let way = if libm::hypot(f[1], f[2]) > starting { [-f[1], -f[2]] } else { [a[1], a[2]] };
+            let length = libm::hypot(way[0], way[1]);
+            Hold::Slide(frames[i].vector([0.0, way[0] / length, way[1] / length]))
         } else {
             Hold::Stick
         };

@@ -78,3 +78,15 @@
 //! | an elastic cube into a corner | comes straight back |
 //! | a bullet at a thin plate, a rod of 1000 rad/s at a wall | no pass through; the instant of the tip |
 //! | a block over its edge | `ω² = 2mg(h₀ − h)/I` about that edge |
+//!
+//! # Contacts that last (`tests/behaviour/rest.rs`, `rolling.rs`, `edges.rs`)
+//!
+//! | case | formula |
+//! |---|---|
+//! | a ball or a cylinder rolls over the edge of a table | leaves it at `cos φ = (2 + j v²/(g R))/(2 + j)`, j = 7/5 or 3/2; j = 1 without friction |
+//! | the same with friction, which it overcomes before | an ordinary equation from `(1 − 1/j) g sin φ = μ n` to `n = 0` |
+//! | a ball over a ridge and down the other side | `(5/7) g sin α` on both, the edge's energy between |
+//! | a ball past the end of an edge | a point on a sphere about the corner |
+//! | a box slides off a table | tips about the edge from `s = −μ b` on, by an ordinary equation |
+//! | a log across a log | a straight line rocking on a circle |
+//! | an egg, a coin in a circle, a cone about its apex | rolling in the plane, steady precession |

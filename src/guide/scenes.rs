@@ -87,9 +87,10 @@
 //! exceeds the `force`, or the `torque` about that point, both sides go on as they move, and stick again where they
 //! meet again at a speed. A blow lasts no time and breaks nothing. What may come off cannot stay in contact with
 //! others, nor carry what sticks to it while it hangs on something fixed: such a run ends by name. Bodies of
-//! fewer freedoms bounce, rest and slide like others, but stick to nothing, which is refused by name. A run ends, with all that was computed, where something
-//! round rolls over an edge, as a ball off a table, or on a curve that is no ball, as an egg on an egg, and where a body
-//! sticks that an effect joins to others in flight.
+//! fewer freedoms bounce, rest and slide like others, but stick to nothing, which is refused by name. Balls and the sides
+//! of cylinders and capsules roll over edges and corners, and on each other. A run ends, with all that was computed, where
+//! an egg, a cone or the rim of a cylinder comes to an edge, or anything to a curve other than those, as an egg to an egg,
+//! and where a body sticks that an effect joins to others in flight.
 //!
 //! ```toml
 //! [[bodies]]

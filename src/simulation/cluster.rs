@@ -3,7 +3,7 @@
 use super::{Failure, Simulation, SimulationError};
 use crate::closest::{Accuracy, ClosestFeatures, Collidable, Collider, PairCache, closest_features};
 use crate::contact::Material;
-use crate::contact::anchor::{Anchor, Faced};
+use crate::contact::anchor::{Anchor, Faced, Wall};
 use crate::contact::broad_phase::Aabb;
 use crate::contact::cluster::{ClusterBody, Contact};
 use crate::contact::manifold::{Surface, Touch, manifold};
@@ -31,9 +31,10 @@ pub(super) struct Cluster {
     pub(super) motions: Vec<BodyMotion>,
     pub(super) touching: Vec<Touching>,
     pub(super) contacts: Vec<Contact>,
-    /// Gap of each contact [m], and where it goes when its bodies move.
+    /// Gap of each contact [m], where it goes when its bodies move, and where it ends.
     pub(super) gaps: Vec<f64>,
     pub(super) anchors: Vec<Option<Anchor>>,
+    pub(super) walls: Vec<Vec<Wall>>,
 }
 
 impl Cluster {
@@ -166,12 +167,21 @@ impl Simulation {
                 let (Some((surface_a, at_a)), Some((surface_b, at_b))) = surfaces else { continue };
                 let (at_a, at_b) = (placed(&pose_a, &at_a), placed(&pose_b, &at_b));
                 let found = manifold(&surface_a, &at_a, &surface_b, &at_b, &Touch::from(&closest), reach);
-                cluster.contacts.extend(found.contacts(places[0], places[1], friction, restitution));
-                let faced_a = Faced { surface: surface_a, pose: at_a, motion: &cluster.motions[places[0]] };
-                let faced_b = Faced { surface: surface_b, pose: at_b, motion: &cluster.motions[places[1]] };
-                let anchors = found.points.iter().map(|p| Anchor::new(&faced_a, &faced_b, &found, p));
-                cluster.anchors.extend(anchors);
-                cluster.gaps.extend(found.points.iter().map(|p| p.gap));
+                let motions = places.map(|place| cluster.motions[place]);
+                let faced_a = Faced { surface: surface_a, pose: at_a, motion: &motions[0] };
+                let faced_b = Faced { surface: surface_b, pose: at_b, motion: &motions[1] };
+                let slack = self.eps(pair[0], pair[1]);
+                let contacts = found.contacts(places[0], places[1], friction, restitution);
+                for (point, mut contact) in found.points.iter().zip(contacts) {
+                    let (anchor, walls) = Anchor::new(&faced_a, &faced_b, &found, point, slack).unzip();
+                    if let Some(anchor) = &anchor {
+                        contact.normals = vec![anchor.normal(&motions[0], &motions[1])];
+                    }
+                    cluster.gaps.push(anchor.map_or(point.gap, |anchor| anchor.gap(&motions[0], &motions[1])));
+                    cluster.contacts.push(contact);
+                    cluster.anchors.push(anchor);
+                    cluster.walls.push(walls.unwrap_or_default());
+                }
             }
         }
         Ok(())

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! lead     a step of Runge and Kutta of order 4 with the contacts' forces in every stage, to its end or to the
-//!          first instant at which a slip turns round or another point of a pair touches
+//!          first instant at which a slip turns round or begins, a contact passes one of its walls or carries no
+//!          more, or another point of a pair touches
 //! ```
 //!
 //! After a step the gaps are what they were, and contacts that carry have no speed along their normals: what
@@ -30,6 +31,8 @@ use crate::trajectory::Heat;
 const STEP: f64 = 0.04;
 /// How much faster than μ a friction may change a slip, at a corner far from the centre of mass [-].
 const STIFF: f64 = 4.0;
+/// Turn of a slip about the normal, in a step, up to which it counts as going straight on [rad].
+const STRAIGHT: f64 = 1.0e-6;
 /// How often a step is shortened for what happens within it [-]: a slip that ends, then a touch before it.
 const SHORTER: usize = 8;
 /// A step is short below this part of its length [-]; so many in a row are too many.
@@ -91,9 +94,15 @@ impl Simulation {
             match self.slips(cluster, part, scales, &step) {
                 Slips::Fast => break,
                 Slips::Dying(suits) => h = suits.min(h),
+                Slips::Beginning if kind == Kind::Explicit => kind = Kind::Straight,
                 Slips::Beginning => kind = Kind::Implicit,
             }
             step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
+        }
+
+        if step.lets_go() {
+            step = self.until_let_go(cluster, part, &led, &gaps, scales, time, step)?;
+            h = step.h;
         }
 
         // steps that stay short for ever: touches that follow each other without end
@@ -144,6 +153,32 @@ impl Simulation {
         self.together[slot] = Some(Together { number, bodies, pairs, sliding, heat, work });
         self.near.due.push(super::near::Due { time: front, what: super::near::What::Step { slot, number } });
         Ok(())
+    }
+
+    /// The step to the instant at which a contact is let go or begins to slip in it. It is found by steps of several
+    /// lengths: forces that end within a step make its polynomials useless for that.
+    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
+    fn until_let_go(
+        &self,
+        cluster: &Cluster,
+        part: &Part,
+        led: &[Numbers],
+        gaps: &[f64],
+        scales: &ContactScales,
+        time: Time,
+        whole: Step,
+    ) -> Result<Step, SimulationError> {
+        let (mut low, mut high, mut last) = (0.0, whole.h, None);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let tried = self.try_step(cluster, part, led, gaps, scales, time, middle, whole.kind)?;
+            if tried.lets_go() {
+                (high, last) = (middle, Some(tried));
+            } else {
+                low = middle;
+            }
+        }
+        Ok(last.filter(|_| low > 0.0).unwrap_or(whole))
     }
 
     /// How long a step of a part may be: as its loads and turning allow, and what is left up to the next switch
@@ -216,13 +251,16 @@ impl Simulation {
     ) -> Result<Step, SimulationError> {
         let is_driver = |k: usize| self.body(cluster.bodies[k]).motion.is_some();
         let (mut heat, mut work, mut first) = (Passed::default(), Passed::default(), Vec::new());
+        let (mut starts, mut pushed) = (Vec::new(), Vec::new());
+        let straight = (kind == Kind::Straight).then_some(h);
         let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
         if kind == Kind::Implicit {
             let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
-            let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, time)?;
+            let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, None, time)?;
+            starts.clone_from(&held.rest.holds);
             (first, heat.power[0], work.power[0]) = (rates, held.heat(), held.drive(&cluster.motions, is_driver));
             let motions;
-            (motions, heat.joules, work.joules) = self.implicit(cluster, part, time, h)?;
+            (motions, heat.joules, work.joules, pushed) = self.implicit(cluster, part, time, h)?;
             for (n, y) in led.iter().zip(&mut y1) {
                 n.chart.encode(&motions[n.place].state(), y);
             }
@@ -238,7 +276,7 @@ impl Simulation {
                     })
                     .collect();
                 let motions = self.stage(cluster, led, &y, (time, at * h));
-                let (held, rates) = self.rates(cluster, part, led, &motions, &y, scales, time + at * h)?;
+                let (held, rates) = self.rates(cluster, part, led, &motions, &y, scales, straight, time + at * h)?;
                 let power = [held.heat(), held.drive(&motions, is_driver)];
                 heat.joules += weight / 6.0 * h * power[0];
                 work.joules += weight / 6.0 * h * power[1];
@@ -247,6 +285,7 @@ impl Simulation {
                 }
                 if first.is_empty() {
                     first.clone_from(&rates);
+                    starts.clone_from(&held.rest.holds);
                     [heat.power[0], work.power[0]] = power;
                 }
                 k = rates;
@@ -258,13 +297,14 @@ impl Simulation {
         if motions.iter().any(|motion| !motion.is_finite()) {
             return Err(self.failure_of(&cluster.bodies, time.value, Failure::Flight(FlightError::NotFinite)));
         }
-        let (held, _) = self.rates(cluster, part, led, &motions, &y1, scales, time + h)?;
+        let (held, _) = self.rates(cluster, part, led, &motions, &y1, scales, straight, time + h)?;
         [heat.power[1], work.power[1]] = [held.heat(), held.drive(&motions, is_driver)];
         let (mut rows, mut lifts, mut stops, mut carrying) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (i, &c) in part.contacts.iter().enumerate() {
             let (contact, slip) = (&held.contacts[i], &held.slips[i]);
             let n = held.rest.normals[i];
-            if held.rest.holds[i] == Hold::Separate || n.dot(slip) > scales.slip {
+            let opens = n.dot(slip) > scales.slip && !pushed.get(i).is_some_and(|pushed| *pushed);
+            if held.rest.holds[i] == Hold::Separate || opens {
                 continue;
             }
             let gap = cluster.anchors[c].map_or(gaps[i], |a| a.gap(&motions[contact.a], &motions[contact.b]));
@@ -296,11 +336,12 @@ impl Simulation {
         }
         let last = self.rates_under(led, &motions, &y1, &held, time + h);
         let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
-        Ok(Step { h, kind, ends, motions, heat, work, carrying })
+        Ok(Step { h, kind, ends, motions, heat, work, carrying, holds: [starts, held.rest.holds] })
     }
 
     /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
-    /// contacts half way, and the heat of its impulses [J]. Momenta stay where nothing acts:
+    /// contacts half way, the heat and the work of its impulses [J], and which contacts have some. Momenta stay where
+    /// nothing acts:
     ///
     /// ```text
     /// L⁺ = L + h M + Σ r × j        ω = I⁻¹ L with I half way        x⁺ = x + ½ h (v + v⁺)
@@ -311,7 +352,7 @@ impl Simulation {
         part: &Part,
         time: Time,
         h: f64,
-    ) -> Result<(Vec<BodyMotion>, f64, f64), SimulationError> {
+    ) -> Result<(Vec<BodyMotion>, f64, f64, Vec<bool>), SimulationError> {
         // half way, with the momenta of the start, and then with what the loads add to them
         let moves = |body: usize| self.places[body].filter(|_| !self.is_driven(body));
         let inverse = |body: usize, motion: &BodyMotion, l: &Vector3| {
@@ -375,7 +416,8 @@ impl Simulation {
         }
         let slips = contacts.iter().map(|contact| contact.slip(&half) + contact.slip(&ends));
         let heat = -slips.zip(&after.impulses).map(|(u, j)| 0.5 * j.dot(&u)).sum::<f64>();
-        Ok((motions, heat, after.work))
+        let pushed = after.impulses.iter().map(|j| *j != Vector3::zeros()).collect();
+        Ok((motions, heat, after.work, pushed))
     }
 
     /// How the slips of a step compare with what friction changes in it.
@@ -387,7 +429,8 @@ impl Simulation {
             let contact = &cluster.contacts[i];
             let change = STIFF * contact.friction * scales.pull;
             let start = contact.slip(&cluster.motions);
-            let end = anchor.support(contact, &bodies).contact.slip(&step.motions);
+            let moved = anchor.support(contact, &bodies).contact;
+            let end = moved.slip(&step.motions);
             let speed = across(&start, &contact.normals[0]).norm();
             if speed >= change * step.h || (way.dot(&end) < way.dot(&start) && end.norm() <= scales.slip) {
                 continue; // fast enough, or come to its end
@@ -395,7 +438,8 @@ impl Simulation {
             if way.dot(&end) < way.dot(&start) && speed > scales.slip {
                 shortest = shortest.min(speed / change);
             } else {
-                begins = true;
+                let turns = moved.normals[0].cross(way).dot(&end).abs() > STRAIGHT * end.norm();
+                begins |= turns || step.kind == Kind::Explicit;
             }
         }
         if begins {
@@ -407,7 +451,8 @@ impl Simulation {
         }
     }
 
-    /// What the contacts do at these motions, and the rates of the numbers.
+    /// What the contacts do at these motions, and the rates of the numbers; in a straight step of this length [s], what
+    /// slides slowly goes on as it began.
     #[expect(clippy::too_many_arguments, reason = "what a stage is made of")]
     fn rates(
         &self,
@@ -417,6 +462,7 @@ impl Simulation {
         motions: &[BodyMotion],
         y: &[Vec<f64>],
         scales: &ContactScales,
+        straight: Option<f64>,
         time: Time,
     ) -> Result<(Held, Vec<Vec<f64>>), SimulationError> {
         // friction opposes the slip, on the side of the step's beginning
@@ -427,7 +473,8 @@ impl Simulation {
             let contact = now.as_ref().unwrap_or(contact);
             let slip = across(&contact.slip(motions), &contact.normals[0]);
             let speed = slip.norm();
-            Some(if speed > scales.slip { slip / speed * slip.dot(&way).signum() } else { way })
+            let least = straight.map_or(0.0, |h| STIFF * contact.friction * scales.pull * h);
+            Some(if speed > scales.slip.max(least) { slip / speed * slip.dot(&way).signum() } else { way })
         };
         let slides: Vec<Option<Vector3>> = part.contacts.iter().zip(&part.slides).map(slide).collect();
         let held = self.held(cluster, motions, &part.contacts, &slides, time)?;
@@ -463,8 +510,8 @@ impl Simulation {
             .collect()
     }
 
-    /// The first instant within a step, from its start [s], at which a slip turns round or another point of a
-    /// pair touches; else its length.
+    /// The first instant within a step, from its start [s], at which a slip turns round, a contact comes to its end, or
+    /// another point of a pair touches; else its length.
     fn first_end(
         &self,
         cluster: &Cluster,
@@ -491,7 +538,7 @@ impl Simulation {
         let mut first = step.h;
 
         // slips
-        let sliding = if step.kind == Kind::Explicit { &part.slides[..] } else { &[] };
+        let sliding = if step.kind == Kind::Implicit { &[] } else { &part.slides[..] };
         for (&i, way) in part.contacts.iter().zip(sliding) {
             let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
             let along = |motions: &[BodyMotion]| {
@@ -501,14 +548,23 @@ impl Simulation {
             if along(&step.motions) >= 0.0 || along(&cluster.motions) <= 0.0 {
                 continue;
             }
-            let (mut low, mut high) = (0.0, step.h);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if along(&motions_at(middle)) > 0.0 { low = middle } else { high = middle }
-            }
-            first = first.min(high);
+            first = first.min(end_of(step.h, &|s| Ok(along(&motions_at(s)) > 0.0))?);
         }
 
+        // walls that a contact passes
+        for touching in &cluster.touching {
+            let slack = self.eps(touching.bodies[0], touching.bodies[1]);
+            for i in touching.contacts.clone().filter(|i| part.contacts.contains(i)) {
+                let (Some(anchor), contact) = (&cluster.anchors[i], &cluster.contacts[i]) else { continue };
+                for wall in &cluster.walls[i] {
+                    let goes_on =
+                        |motions: &[BodyMotion]| anchor.inside(wall, &motions[contact.a], &motions[contact.b]) > -slack;
+                    if goes_on(&cluster.motions) && !goes_on(&step.motions) {
+                        first = first.min(end_of(step.h, &|s| Ok(goes_on(&motions_at(s))))?);
+                    }
+                }
+            }
+        }
         // touches: points that come below the surface, by more than those that carry seem to within the step
         for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
             let pair = touching.bodies;
@@ -543,6 +599,20 @@ impl Simulation {
         }
         Ok(first)
     }
+}
+
+/// The end of what holds at the start of a step and not after the time `end` [s]: just behind it.
+fn end_of(end: f64, holds: &dyn Fn(f64) -> Result<bool, SimulationError>) -> Result<f64, SimulationError> {
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if holds(middle)? {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Ok(high)
 }
 
 /// How far below the surface a point must come to count as touching, in ε [-].

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::cluster::Cluster;
+use crate::contact::rest::Hold;
 use crate::freedom::Chart;
 use crate::math::sum::Time;
 use crate::state::BodyMotion;
@@ -11,6 +12,8 @@ use crate::state::BodyMotion;
 pub(super) enum Kind {
     /// By the method of Runge and Kutta.
     Explicit,
+    /// By the same where friction opposes the way in which a slow slip began, not the slip: for one that goes straight on.
+    Straight,
     /// By one plastic impact of what the loads give in the step, so that friction opposes the slip at its end,
     /// whose direction is stiff where the slip is slow.
     Implicit,
@@ -61,6 +64,18 @@ pub(super) struct Step {
     pub(super) work: Passed,
     /// The contacts that carry at its end, as places in the cluster's list.
     pub(super) carrying: Vec<usize>,
+    /// What each contact does at its start and at its end.
+    pub(super) holds: [Vec<Hold>; 2],
+}
+
+impl Step {
+    /// Whether a contact that carries at the start is let go at the end, or one that sticks slides.
+    pub(super) fn lets_go(&self) -> bool {
+        let [starts, ends] = &self.holds;
+        starts.iter().zip(ends).any(|hold| {
+            matches!(hold, (Hold::Stick, Hold::Slide(_) | Hold::Separate) | (Hold::Slide(_), Hold::Separate))
+        })
+    }
 }
 
 impl Simulation {

@@ -7,6 +7,7 @@ mod accuracy;
 mod bad_input;
 mod breaking;
 mod collision;
+mod edges;
 mod effects;
 mod events;
 mod files;

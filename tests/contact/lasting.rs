@@ -1,6 +1,7 @@
 //! Bodies that stay together: merged, at the end of their bounces, at rest, sliding, rolling.
 
 use bryla::contact::accumulation::{Accumulation, rest_speed};
+use bryla::contact::anchor::Anchor;
 use bryla::contact::cluster::{ClusterBody, ClusterError, Contact};
 use bryla::contact::joint::BreakingLoad;
 use bryla::contact::rest::{Acceleration, Hold, Rest, Support, rest};
@@ -352,7 +353,7 @@ fn the_acceleration_of_the_gap_is_its_second_derivative() {
         ("ball on ball", Support::ball_on_ball(contact(), &bodies, ra, rb), {
             Box::new(move |t| (carried(1, &(p + rb * n), t) - carried(0, &(p - ra * n), t)).norm() - ra - rb)
         }),
-        ("edge on edge", Support::edge_on_edge(contact(), &bodies, &edge_a, &edge_b), {
+        ("edge on edge", Support::line_on_line(contact(), &bodies, [&edge_a, &edge_b], [0.0; 2]), {
             Box::new(move |t| {
                 let across = side * direction(0, &edge_a, t).cross(&direction(1, &edge_b, t));
                 across.normalize().dot(&(carried(1, &p, t) - carried(0, &p, t)))
@@ -366,6 +367,70 @@ fn the_acceleration_of_the_gap_is_its_second_derivative() {
         let free = [Acceleration::zero(), Acceleration { linear: -pull * n, angular: Vector3::zeros() }];
         let held = rest(&bodies, &free, &[support], 1e-9).expect("an answer");
         let w: f64 = bodies.iter().map(|b| 1.0 + (p - b.motion.position).cross(&n).norm_squared()).sum();
+        let found = pull - n.dot(&held.forces[0]) * w;
+        assert!(second.abs() > 0.05 && (found - second).abs() < 1e-5, "{name}: {found} is not {second}");
+    }
+}
+
+#[test]
+fn the_acceleration_of_an_anchor_s_gap_is_its_second_derivative() {
+    // as above, for features of bodies that fly and turn; radii are such that they touch
+    let fly = |x: Vector3, v: Vector3, w: Vector3, turn: [f64; 4]| body(1.0, [1.0; 3], x, v, w, turn);
+    let a = fly(vector(0.1, 0.2, -0.6), vector(0.3, -0.4, 0.2), vector(0.5, 1.0, -0.7), [0.9, 0.2, -0.1, 0.3]);
+    let b = fly(vector(-0.2, 0.1, 0.5), vector(-0.5, 0.6, 0.1), vector(-1.0, 0.4, 0.9), [0.8, -0.3, 0.2, 0.1]);
+    let bodies = [a, b];
+    let at = |k: usize, t: f64| {
+        let mut motion = bodies[k].motion;
+        motion.position += t * motion.velocity;
+        motion.orientation = quaternion::exp(&(t * motion.angular_velocity)) * motion.orientation;
+        motion.rotation = quaternion::to_matrix(&motion.orientation);
+        motion
+    };
+    let gap = |anchor: &Anchor, t: f64| anchor.gap(&at(0, t), &at(1, t));
+    let (p, q) = (vector(0.1, -0.05, 0.3), vector(-0.1, 0.2, -0.15));
+    let (e, f) = (vector(0.9, 0.3, -0.2).normalize(), vector(-0.2, 0.8, 0.1).normalize());
+    let on_line = |of_b: bool, r: f64| {
+        let (center, foot, along) = if of_b { (q, p, e) } else { (p, q, f) };
+        Anchor::OnLine { of_b, center, foot, along, radii: [0.1, r] }
+    };
+    let balls = |r: f64| Anchor::Balls { centers: [p, q], radii: [0.1, r] };
+    let lines = |r: f64| Anchor::Lines { points: [p, q], along: [e, f], radii: [0.1, r], side: 1.0 };
+    let swapped = |r: f64| Anchor::Lines { points: [p, q], along: [e, f], radii: [0.1, r], side: -1.0 };
+    let crossed =
+        if gap(&lines(0.0), 0.0) > 0.0 { lines(gap(&lines(0.0), 0.0)) } else { swapped(gap(&swapped(0.0), 0.0)) };
+    let on_rim = |of_b: bool, radius: f64| {
+        let (center, middle, axis) = if of_b { (q, p, e) } else { (p, q, f) };
+        Anchor::OnRim { of_b, center, radius, middle, axis, rim: 0.2 }
+    };
+    let anchors = [
+        ("ball of b on a rim", on_rim(true, gap(&on_rim(true, 0.0), 0.0))),
+        ("ball of a on a rim", on_rim(false, gap(&on_rim(false, 0.0), 0.0))),
+        ("ball of b on a line", on_line(true, gap(&on_line(true, 0.0), 0.0))),
+        ("ball of a on a line", on_line(false, gap(&on_line(false, 0.0), 0.0))),
+        ("balls", balls(gap(&balls(0.0), 0.0))),
+        ("lines", crossed),
+    ];
+    let pull = 90.0;
+    for (name, anchor) in anchors {
+        assert!(gap(&anchor, 0.0).abs() < 1e-15);
+        let contact = Contact::new(0, 1, Vector3::zeros(), Vector3::z());
+        let support = anchor.support(&contact, &bodies);
+        let (point, n) = (support.contact.point, support.contact.normals[0]);
+        let h = 1e-4;
+
+        // the normal turns as it says, and the point runs so
+        let moved = |t: f64| {
+            let bodies = [0, 1].map(|k| ClusterBody::free(&at(k, t), &Matrix3::identity()));
+            let contact = anchor.support(&contact, &bodies).contact;
+            (contact.point, contact.normals[0])
+        };
+        close(&((moved(h).0 - moved(-h).0) / (2.0 * h)), &support.point_velocity, 1e-6);
+        close(&((moved(h).1 - moved(-h).1) / (2.0 * h)), &support.normal_rate, 1e-6);
+
+        let second = (gap(&anchor, h) - 2.0 * gap(&anchor, 0.0) + gap(&anchor, -h)) / (h * h);
+        let free = [Acceleration::zero(), Acceleration { linear: -pull * n, angular: Vector3::zeros() }];
+        let held = rest(&bodies, &free, &[support], 1e-9).expect("an answer");
+        let w: f64 = bodies.iter().map(|b| 1.0 + (point - b.motion.position).cross(&n).norm_squared()).sum();
         let found = pull - n.dot(&held.forces[0]) * w;
         assert!(second.abs() > 0.05 && (found - second).abs() < 1e-5, "{name}: {found} is not {second}");
     }

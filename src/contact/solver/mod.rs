@@ -91,7 +91,7 @@ impl Coulomb<'_> {
     }
 
     /// The largest entry of the natural map `p − P(p − u − μ |u_t| n)`, P the nearest admissible point
-    /// (De Saxcé & Feng 1998): 0 exactly at a solution.
+    /// (De Saxcé & Feng 1998): 0 exactly at a solution; or what approaches, which the map hides behind a large μ.
     pub fn residual(&self, p: &[f64]) -> f64 {
         let u = self.w.times_plus(p, self.q);
         if !largest(&u).is_finite() || !largest(p).is_finite() {
@@ -105,6 +105,7 @@ impl Coulomb<'_> {
             for k in 0..3 {
                 worst = worst.max((p[k] - nearest[k]).abs());
             }
+            worst = worst.max(-u[0]);
         }
         worst
     }
