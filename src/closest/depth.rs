@@ -78,7 +78,9 @@ pub(super) fn depth_on(
     f64::with_surface(|surface| {
         surface.restore(pair, packed);
         let known = surface.points.len();
-        let is_around = surface.triangles.iter().all(|t| t.distance > 0.0);
+        // what faces away all round may also have shrunk to a spot beside the origin, as bodies far off do in rounding
+        let is_beyond = |t: &Triangle<f64>| surface.points.iter().any(|p| t.normal.dot(p) < 0.0);
+        let is_around = surface.triangles.iter().all(|t| t.distance > 0.0) && surface.triangles.iter().any(is_beyond);
         let bounds = if is_around { grow(pair, surface, gap, steps, enough, Dents::End)? } else { return None };
         let added = surface.points.len() - known;
         if added == 0 {
