@@ -3,7 +3,7 @@
 //! ```text
 //! u > v_rest      a bounce with the pairs' restitutions, also of pairs that the blow reaches only
 //! u ≤ v_rest      no bounce: its height, and all that would follow it, is below REST_RISE of the size
-//! v_rest = √(2 a REST_RISE size)        a: the loads' acceleration
+//! v_rest = √(2 a REST_RISE size)        a: the loads' acceleration, and ω² r where something is not elastic
 //! ```
 //!
 //! u is the fastest approach of the cluster. Bounces that accumulate end so; when they would have ended is told
@@ -208,7 +208,18 @@ impl Simulation {
             motion.velocity.norm() + motion.angular_velocity.norm() * self.body(body).radius
         };
         let fastest = cluster.bodies.iter().zip(&cluster.motions).map(speed).fold(0.0, f64::max);
-        let rest = rest_speed(pull, REST_RISE * size);
+        // what loses speed in bounces comes to rest on what turns into it as on what is pulled there
+        let spin = |(&body, motion): (&usize, &BodyMotion)| {
+            if self.places[body].is_some() {
+                motion.angular_velocity.norm_squared() * self.body(body).radius
+            } else {
+                0.0
+            }
+        };
+        let spins = cluster.bodies.iter().zip(&cluster.motions).map(spin).fold(0.0, f64::max);
+        let is_elastic = cluster.contacts.iter().all(|contact| contact.restitution == 1.0);
+        let drive = if is_elastic { pull } else { pull + spins };
+        let rest = rest_speed(drive, REST_RISE * size);
         let small = (SMALL[0] * rest).max(SMALL[1] * fastest);
         ContactScales { pull, size, rest, small, slip: (SLIP * (pull * size).sqrt()).max(SMALL[1] * fastest) }
     }

@@ -184,3 +184,22 @@ fn a_log_rocks_across_a_log_and_rolls_along_it() {
 fn along_y() -> [f64; 4] {
     [std::f64::consts::FRAC_1_SQRT_2, std::f64::consts::FRAC_1_SQRT_2, 0.0, 0.0]
 }
+
+#[test]
+fn a_coin_that_turns_into_a_wall_stops_bouncing() {
+    // nothing pulls it, but its spin presses its rim to the wall as a load would: bounces with e = 0.3 are below 1e-10
+    // of its size after ln(1e-10)/(2 ln 0.3) = 10 of them, one of which may be cut off before or after
+    let wall = Body::new("wall", HalfSpace::new([-1.0, 0.0, 0.0], -3.0)).fixed().friction(0.6).restitution(0.3);
+    let coin = Body::new("coin", Cylinder::new(0.25, 0.05))
+        .mass(4.0)
+        .position([1.5, -1.5, -1.5])
+        .orientation([-0.0848, -0.6646, -0.1427, 0.7286])
+        .velocity([2.16, 2.39, 5.96])
+        .angular_velocity([1.25, -5.08, -1.84])
+        .friction(0.2);
+    let run = run(&scene([wall, coin]), 0.7);
+    let bounces = run.events().iter().filter(|event| event.kind == EventKind::Bounce).count();
+    assert!((3..=16).contains(&bounces), "{bounces}");
+    let energy = run.energy().unwrap();
+    assert!(energy.drift() < CLOSE * energy.kinetic[0], "{:e}", energy.drift());
+}

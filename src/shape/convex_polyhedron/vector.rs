@@ -25,9 +25,12 @@ pub(super) fn norm(a: &[f64; 3]) -> f64 {
     if square >= f64::MIN_POSITIVE / f64::EPSILON {
         return square.sqrt();
     }
-    let (up, down) = (1e150, 1e-150);
-    let larger = a.map(|x| up * x);
-    down * dot(&larger, &larger).sqrt()
+    let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let scaled = a.map(|x| x / largest);
+    largest * dot(&scaled, &scaled).sqrt()
 }
 
 /// Twice the area of a triangle along its normal. The corners are taken apart in double-double: of a
