@@ -66,8 +66,8 @@ const PLATEAU: usize = 32;
 const ROUNDING_UNITS: f64 = 3.0;
 /// Of a point placed in the world in double-double: two rotations of 22 u and the sums [-].
 const REMOTE_UNITS: f64 = 48.0;
-/// What squares lose that underflow [m]: lengths below 1e-154 may come out as 0. Larger: gaps that are told would count
-/// as touching.
+/// Size below which squares underflow, and what they lose of lengths then [m]. Larger: gaps that are told would count as
+/// touching.
 const UNDERFLOW: f64 = 1e-150;
 /// What a piece's own rotation adds, in units `u` times the radii [-].
 const PIECE_UNITS: f64 = 11.0;
@@ -220,7 +220,7 @@ impl Measure {
         let units = (RADII_UNITS + pieces + extra) * radii + CENTERS_UNITS * centers + ROUNDING_UNITS * rounding;
         // the last subtraction of the radii is in f64 even where all else is finer
         let last = if rounding > 0.0 { f64::UNIT * (rounding + centers) } else { 0.0 };
-        Self { size: radii + centers + rounding, error: unit * units + last + UNDERFLOW }
+        Self { size: radii + centers + rounding, error: unit * units + last }
     }
 }
 
@@ -278,12 +278,13 @@ impl<'a, R: Heights> Pair<'a, R> {
         let (radii, centers) = (a.radius() + b.radius(), Vec3::<f64>(between.to_f64()).norm());
         let extra = if a.is_about_origin() && b.is_about_origin() { 0.0 } else { OFF_CENTER_UNITS };
         let Measure { size, error } = Measure::new(R::COST, radii, centers, [at_a, at_b], extra);
+        let lost = if size < UNDERFLOW && between != Vec3::zero() { UNDERFLOW } else { 0.0 };
         let rotations = if at_a.piece.is_none() && at_b.piece.is_none() {
             R::rotations(&at_a.pose.orientation, &at_b.pose.orientation)
         } else {
             Rotations::of(&at_a.rows(), &at_b.rows())
         };
-        Self { a, b, rotations, between, size, error: error + remote }
+        Self { a, b, rotations, between, size, error: error + remote + lost }
     }
 
     /// A vertex of B about its centre, world axes.
