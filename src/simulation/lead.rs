@@ -565,6 +565,7 @@ impl Simulation {
                 }
             }
         }
+
         // touches: points that come below the surface, by more than those that carry seem to within the step
         for touching in cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i))) {
             let pair = touching.bodies;
