@@ -36,7 +36,6 @@ pub(super) fn polyhedra(
 ) -> ClosestFeatures {
     let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
     let (views, center) = ([view_a, view_b], at_a.point(a.center()));
-    let rounding = view_a.rounding + view_b.rounding;
     let pair = Pair::new(a, &at_a, b, &at_b);
 
     // the features of the last answer, each point still in the other's region
@@ -71,17 +70,17 @@ pub(super) fn polyhedra(
 
     // in f64 first, in double-double where that proves too little
     let mut found = if was_apart {
-        walk(&pair, start, rounding, accuracy, &mut steps)
+        walk(&pair, start, radii(views), accuracy, &mut steps)
     } else {
         let surface = cache.as_ref().and_then(|c| c.surface(a, b));
-        climb(&pair, start, surface, rounding, accuracy, &mut steps)
+        climb(&pair, start, surface, radii(views), accuracy, &mut steps)
     };
     let joined = join(&pair, &found.bounds);
     let mut answer = describe(&pair, &joined, views, &center, accuracy, steps, found.rung);
     if !answer.certified {
         let pair = Pair::precise(a, &at_a, b, &at_b);
         let gap = SEARCH_GAP * DoubleDouble::UNIT / f64::UNIT;
-        let precise = find(&pair, &[], &pair.between, rounding, gap, accuracy, &mut steps);
+        let precise = find(&pair, &[], &pair.between, radii(views), gap, accuracy, &mut steps);
         let better =
             describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
         if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
@@ -112,19 +111,18 @@ pub(super) fn curved(
 ) -> ClosestFeatures {
     let (at_a, at_b) = (view_a.stand(pose_a), view_b.stand(pose_b));
     let (views, center) = ([view_a, view_b], at_a.point(a.center()));
-    let rounding = view_a.rounding + view_b.rounding;
     let mut steps = 0;
 
     // from the last normal, or along the line of centres
     let pair = RoundPair::new(a, &at_a, b, &at_b);
     let toward = cache.as_ref().and_then(|c| c.normal()).map_or_else(|| pair.between(), Vec3);
-    let found = find(&pair, &[], &toward, rounding, SEARCH_GAP, accuracy, &mut steps);
+    let found = find(&pair, &[], &toward, radii(views), SEARCH_GAP, accuracy, &mut steps);
     let mut answer = describe(&pair, &join(&pair, &found.bounds), views, &center, accuracy, steps, found.rung);
     let is_hopeless = answer.state == State::Overlapping && answer.upper - answer.lower > HOPELESS * pair.size();
     if !answer.certified && !is_hopeless {
         let pair = RoundPair::precise(a, &at_a, b, &at_b);
         let toward = found.bounds.normal.0.map(DoubleDouble::from);
-        let precise = find(&pair, &[], &Vec3(toward), rounding, CURVED_GAP, accuracy, &mut steps);
+        let precise = find(&pair, &[], &Vec3(toward), radii(views), CURVED_GAP, accuracy, &mut steps);
         let better =
             describe(&pair, &join(&pair, &precise.bounds), views, &center, accuracy, steps, Rung::DoubleDouble);
         if better.certified || better.upper - better.lower <= answer.upper - answer.lower {
@@ -135,6 +133,12 @@ pub(super) fn curved(
         cache.store_normal(&Vec3(answer.normal.into()));
     }
     answer
+}
+
+/// What the bodies are rounded by [m], together.
+#[inline]
+fn radii<R: Real>(views: [&View<'_>; 2]) -> R {
+    R::from(views[0].rounding) + R::from(views[1].rounding)
 }
 
 /// What a rung found: bounds, and of an overlap the vertices that prove it.
@@ -189,18 +193,14 @@ fn climb(
 
 /// Whether the cores' distance is known to be above or below the rounding, and that is all that was asked
 /// for.
-fn is_known_apart<R: Real>(
-    pair: &impl Difference<R>,
-    rounding: f64,
-    accuracy: Accuracy,
-) -> impl Fn(&Bounds<R>) -> bool {
-    let (only_state, error, rounding) = (accuracy == Accuracy::YesNo, R::from(pair.error(0.0)), R::from(rounding));
+fn is_known_apart<R: Real>(pair: &impl Difference<R>, rounding: R, accuracy: Accuracy) -> impl Fn(&Bounds<R>) -> bool {
+    let (only_state, error) = (accuracy == Accuracy::YesNo, R::from(pair.error(0.0)));
     move |found| only_state && (found.upper < rounding - error || found.lower > rounding + error)
 }
 
 /// The same for a depth: what encloses the origin has a negative upper bound.
 fn is_known_inside<R: Real>(pair: &impl Difference<R>, accuracy: Accuracy) -> impl Fn(&Bounds<R>) -> bool {
-    is_known_apart(pair, 0.0, accuracy)
+    is_known_apart(pair, R::from(0.0), accuracy)
 }
 
 /// The gap at which a query may stop, as a fraction of the size.
@@ -213,7 +213,7 @@ fn find<R: Workshop>(
     pair: &impl Difference<R>,
     start: &[Ids],
     toward: &Vec3<R>,
-    rounding: f64,
+    rounding: R,
     gap: f64,
     accuracy: Accuracy,
     steps: &mut u32,
@@ -294,7 +294,7 @@ fn describe<R: Real>(
     let upper = found.upper;
     let bound = pair.error(if found.lower > R::from(0.0) { upper } else { found.lower }.to_f64());
     let error = R::from(bound);
-    let rounding = R::from(views[0].rounding + views[1].rounding);
+    let rounding: R = radii(views);
     let (lower, upper) = outward(found.lower - rounding - error, upper - rounding + error);
     let floor = 2.0 * bound + CERTIFICATE_SLACK * pair.size();
     // what a rung could do better leads to the next; the last is held to what is promised, and what it sees within

@@ -53,14 +53,14 @@ pub(super) fn depth<R: Workshop>(
     enough: impl Fn(&Bounds<R>) -> bool,
 ) -> (Bounds<R>, Enclosing) {
     let gap = R::from(gap);
-    let corners = match spanning(pair, start, gap) {
-        Ok(corners) => corners,
+    let (corners, shallowest) = match spanning(pair, start, gap) {
+        Ok(found) => found,
         Err(flat) => return (flat, Enclosing::Nothing),
     };
     R::with_surface(|surface| {
         surface.begin(&corners);
         let bounds = grow(pair, surface, gap, steps, enough, Dents::Allowed);
-        let bounds = bounds.unwrap_or_else(|| flat_answer(start, pair, Vec3::new([0.0, 0.0, 1.0])));
+        let bounds = bounds.unwrap_or_else(|| flat_answer(start, pair, shallowest));
         let points = || Enclosing::Points(surface.core(PairCache::CAPACITY));
         (bounds, surface.pack().map_or_else(points, Enclosing::Surface))
     })
@@ -225,10 +225,16 @@ fn grow<R: Real>(
     Some(best)
 }
 
-/// Four points of the difference that span space, from the given ones; or the answer, where a direction
-/// is met in which the difference lies to one side of the origin.
-fn spanning<R: Real>(pair: &impl Difference<R>, start: &Simplex<R>, gap: R) -> Result<Simplex<R>, Bounds<R>> {
+/// Four points of the difference that span space, from the given ones, and the direction looked along in which the
+/// origin is least deep; or the answer, where a direction is met in which the difference lies to one side of the origin,
+/// or rounding leaves it no extent.
+fn spanning<R: Real>(
+    pair: &impl Difference<R>,
+    start: &Simplex<R>,
+    gap: R,
+) -> Result<(Simplex<R>, Vec3<R>), Bounds<R>> {
     let mut simplex = *start;
+    let mut shallowest = (R::from(f64::NEG_INFINITY), Vec3::new([0.0, 0.0, 1.0]));
     while simplex.count < 4 {
         // directions in which the simplex has no extent
         let p = simplex.points;
@@ -254,6 +260,9 @@ fn spanning<R: Real>(pair: &impl Difference<R>, start: &Simplex<R>, gap: R) -> R
             for n in [unit, -unit] {
                 let (ids, height) = pair.lowest(&n, Some(simplex.ids[0]));
                 let extent = n.dot(&p[0]) - n.dot(&pair.difference(ids));
+                if height > shallowest.0 {
+                    shallowest = (height, n);
+                }
                 if height >= -gap {
                     return Err(flat_answer(&simplex, pair, n));
                 }
@@ -268,11 +277,11 @@ fn spanning<R: Real>(pair: &impl Difference<R>, start: &Simplex<R>, gap: R) -> R
             }
         }
         let Some((_, ids, w)) = farthest else {
-            return Err(flat_answer(&simplex, pair, Vec3::new([0.0, 0.0, 1.0])));
+            return Err(flat_answer(&simplex, pair, shallowest.1));
         };
         simplex.push(ids, w);
     }
-    Ok(simplex)
+    Ok((simplex, shallowest.1))
 }
 
 /// The coordinate axis farthest from a direction.
@@ -284,7 +293,7 @@ fn smallest_axis<R: Real>(e: &Vec3<R>) -> Vec3<R> {
     Vec3::new(axis)
 }
 
-/// The answer where `n` separates the bodies to rounding.
+/// The answer that `n` gives, where it separates the bodies to rounding or no surface encloses the origin.
 fn flat_answer<R: Real>(simplex: &Simplex<R>, pair: &impl Difference<R>, n: Vec3<R>) -> Bounds<R> {
     let mut simplex = *simplex;
     simplex.count = simplex.count.min(3);

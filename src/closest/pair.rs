@@ -218,9 +218,7 @@ impl Measure {
         let rounding = stands[0].rounding + stands[1].rounding;
         let pieces = if stands.iter().any(|s| s.piece.is_some()) { PIECE_UNITS } else { 0.0 };
         let units = (RADII_UNITS + pieces + extra) * radii + CENTERS_UNITS * centers + ROUNDING_UNITS * rounding;
-        // the last subtraction of the radii is in f64 even where all else is finer
-        let last = if rounding > 0.0 { f64::UNIT * (rounding + centers) } else { 0.0 };
-        Self { size: radii + centers + rounding, error: unit * units + last }
+        Self { size: radii + centers + rounding, error: unit * units }
     }
 }
 
