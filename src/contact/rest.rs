@@ -31,7 +31,7 @@ use super::problem::{PerContact, Scaled, choose_normals};
 use super::solver::Coulomb;
 use super::solver::dense::{Dense, Vector, largest, least_norm, zeros};
 use crate::math::Vector3;
-use crate::state::Load;
+use crate::state::{BodyMotion, Load};
 
 /// Acceleration of a body, world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,13 +117,19 @@ impl Support {
 
     /// Rounds about two lines that cross, of these directions in world axes and radii [m], 0 of an edge: the point
     /// stays between the points of the lines that are nearest to each other.
-    pub fn line_on_line(
+    pub fn line_on_line(contact: Contact, bodies: &[ClusterBody], along: [&Vector3; 2], radii: [f64; 2]) -> Self {
+        let motions = [contact.a, contact.b].map(|k| &bodies[k].motion);
+        Self::between_lines(contact, motions, along, radii)
+    }
+
+    /// The same for these motions of a and b.
+    pub(super) fn between_lines(
         contact: Contact,
-        bodies: &[ClusterBody],
+        [a, b]: [&BodyMotion; 2],
         [along_a, along_b]: [&Vector3; 2],
         [radius_a, radius_b]: [f64; 2],
     ) -> Self {
-        let (a, b, n) = (&bodies[contact.a].motion, &bodies[contact.b].motion, contact.normals[0]);
+        let n = contact.normals[0];
         let across = along_a.cross(along_b);
         let side = across.dot(&n);
         let turning =
