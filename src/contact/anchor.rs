@@ -22,7 +22,7 @@
 //! walls are planes, and where the centre passes one the contact ends and another begins: at an edge, at a corner, back
 //! on a face.
 
-use super::cluster::{ClusterBody, Contact};
+use super::cluster::Contact;
 use super::manifold::{Manifold, ManifoldPoint, Surface};
 use super::region::Region;
 use super::rest::Support;
@@ -236,8 +236,8 @@ impl Anchor {
 
     /// The contact where the bodies are now, with the rates of its point and normal; friction is that of
     /// `contact`.
-    pub fn support(&self, contact: &Contact, bodies: &[ClusterBody]) -> Support {
-        let (a, b) = (&bodies[contact.a].motion, &bodies[contact.b].motion);
+    pub fn support(&self, contact: &Contact, motions: &[BodyMotion]) -> Support {
+        let (a, b) = (&motions[contact.a], &motions[contact.b]);
         let at = |point: Vector3, normal: Vector3| {
             Contact::new(contact.a, contact.b, point, normal).friction(contact.friction)
         };
@@ -285,7 +285,7 @@ impl Anchor {
 
                 // the point of a's line nearest to b's
                 let s = (q - p).cross(&f).dot(&across) / across.norm_squared();
-                Support::line_on_line(at(p + s * e + radii[0] * n, n), bodies, [&e, &f], *radii)
+                Support::between_lines(at(p + s * e + radii[0] * n, n), [a, b], [&e, &f], *radii)
             }
         }
     }

@@ -31,6 +31,7 @@
 use super::solver::dense::Dense;
 use crate::math::{Matrix3, Vector3};
 use crate::state::BodyMotion;
+use smallvec::SmallVec;
 
 /// How a body answers impulses: the symmetric 6×6 matrix from (impulse, angular impulse about the centre
 /// of mass) to (change of v, change of ω), world axes.
@@ -191,7 +192,7 @@ pub struct Contact {
     /// Unit normals from a to b, world axes: one, or several where the contact has no single normal (vertex
     /// on vertex, vertex on edge, parallel edges). Several span the cone of normals, and the response
     /// chooses in it; see [`collision`](super::collision).
-    pub normals: Vec<Vector3>,
+    pub normals: SmallVec<[Vector3; 1]>,
     /// Coefficient of friction μ [-].
     pub friction: f64,
     /// Coefficient of restitution e [-].
@@ -201,7 +202,7 @@ pub struct Contact {
 impl Contact {
     /// A contact with one normal, without friction, of restitution 0.
     pub fn new(a: usize, b: usize, point: Vector3, normal: Vector3) -> Self {
-        Self { a, b, point, normals: vec![normal], friction: 0.0, restitution: 0.0 }
+        Self { a, b, point, normals: SmallVec::from_buf([normal]), friction: 0.0, restitution: 0.0 }
     }
 
     /// Velocity of b relative to a at the point, for these motions of the bodies [m/s].
@@ -212,7 +213,7 @@ impl Contact {
     /// Sets the normals.
     #[must_use]
     pub fn normals(self, normals: impl Into<Vec<Vector3>>) -> Self {
-        Self { normals: normals.into(), ..self }
+        Self { normals: SmallVec::from_vec(normals.into()), ..self }
     }
 
     /// Sets the coefficient of friction.
@@ -375,8 +376,10 @@ pub(super) fn matrix(bodies: &[ClusterBody], contacts: &[Contact], rows: &[Row])
                 continue;
             }
             let change = mobility.answer(&(sign * source.direction), &bodies[body].lever(&from.point));
-            for (i, row) in rows.iter().enumerate().take(j + 1) {
-                let to = &contacts[row.contact];
+            let mut i = 0;
+            for own in rows[..=j].chunk_by(|row, next| row.contact == next.contact) {
+                let (first, to) = (i, &contacts[own[0].contact]);
+                i += own.len();
                 let sign = if to.b == body {
                     1.0
                 } else if to.a == body {
@@ -384,8 +387,10 @@ pub(super) fn matrix(bodies: &[ClusterBody], contacts: &[Contact], rows: &[Row])
                 } else {
                     continue;
                 };
-                let moved = sign * row.direction.dot(&change.at(&bodies[body].lever(&to.point)));
-                w.set(i, j, w.at(i, j) + moved);
+                let moved = sign * change.at(&bodies[body].lever(&to.point));
+                for (i, row) in (first..).zip(own) {
+                    w.set(i, j, w.at(i, j) + row.direction.dot(&moved));
+                }
             }
         }
     }

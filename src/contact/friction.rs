@@ -20,9 +20,10 @@
 //! each took in compression.
 
 use super::collision::Law;
+use super::problem::PerContact;
 use super::reflection::{energy_change, rounds_for, slices};
 use super::solver::Coulomb;
-use super::solver::dense::{Dense, dot};
+use super::solver::dense::{Dense, Vector, dot, zeros};
 
 /// A scaled problem with friction, three rows a contact.
 pub(super) struct Rubbing<'a> {
@@ -36,7 +37,7 @@ pub(super) struct Rubbing<'a> {
 
 /// Impulses of a problem with friction.
 pub(super) struct Rubbed {
-    pub(super) impulse: Vec<f64>,
+    pub(super) impulse: Vector,
     pub(super) residual: f64,
     pub(super) rounds: u32,
     /// The part of the restitution that was used [-].
@@ -57,16 +58,16 @@ const STOPS: usize = 8;
 /// What the restitution asks for.
 enum Wish {
     /// A least normal impulse at each contact.
-    Impulse(Vec<f64>),
+    Impulse(Vector),
     /// A least normal velocity at each contact.
-    Velocity(Vec<f64>),
+    Velocity(Vector),
 }
 
 impl Rubbing<'_> {
     /// The answer with these restitutions.
     pub(super) fn answer(&self, restitution: &[f64]) -> Rubbed {
         let n = self.friction.len();
-        let (plastic, mut residual) = self.impact(&Wish::Impulse(vec![0.0; n]));
+        let (plastic, mut residual) = self.impact(&Wish::Impulse(zeros(n)));
         let mut rounds = 1;
         if restitution.iter().all(|&e| e == 0.0) {
             let mut plastic = plastic;
@@ -76,14 +77,14 @@ impl Rubbing<'_> {
 
         // one contact alone: what the slices come to
         if let &[e] = restitution {
-            let (impulses, speeds) = ([(1.0 + e) * plastic[0]], vec![(-e * self.q[0]).max(0.0)]);
+            let (impulses, speeds) = ([(1.0 + e) * plastic[0]], Vector::from_slice(&[(-e * self.q[0]).max(0.0)]));
             let limit = (self.law == Law::Stronge).then(|| self.stronge_limit(&plastic, restitution));
             let (impulse, last, kept) = self.restore(&plastic, &impulses, speeds, limit);
             return Rubbed { impulse, residual: residual.max(last), rounds: 2, kept };
         }
 
         // mix the normal impulses and velocities of the slices
-        let (mut impulses, mut speeds) = (vec![0.0; n], vec![0.0; n]);
+        let (mut impulses, mut speeds) = (zeros(n), zeros(n));
         for (weight, elastic) in slices(restitution) {
             let p = if elastic.contains(&true) {
                 let (p, worst, count) = self.rounds(&elastic);
@@ -115,7 +116,7 @@ impl Rubbing<'_> {
             if (0..self.friction.len()).all(|i| u[3 * i] >= -self.noise[i]) {
                 return;
             }
-            let (rest, _) = Rubbing { q: &u, ..*self }.impact(&Wish::Impulse(vec![0.0; self.friction.len()]));
+            let (rest, _) = Rubbing { q: &u, ..*self }.impact(&Wish::Impulse(zeros(self.friction.len())));
             for (p, s) in p.iter_mut().zip(&rest) {
                 *p += s;
             }
@@ -123,9 +124,9 @@ impl Rubbing<'_> {
     }
 
     /// Rounds of elastic pairs of phases over the approaching contacts.
-    fn rounds(&self, elastic: &[bool]) -> (Vec<f64>, f64, u32) {
+    fn rounds(&self, elastic: &[bool]) -> (Vector, f64, u32) {
         let n = self.friction.len();
-        let mut p = vec![0.0; 3 * n];
+        let mut p = zeros(3 * n);
         let mut worst = 0.0f64;
         let mut count = 0;
         for round in 1..=rounds_for(n) {
@@ -137,15 +138,15 @@ impl Rubbing<'_> {
             count = round;
             let rows: Vec<usize> = approaching.iter().flat_map(|&i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
             let w = self.w.part(&rows);
-            let q: Vec<f64> = rows.iter().map(|&r| u[r]).collect();
-            let pick = |x: &[f64]| approaching.iter().map(|&i| x[i]).collect::<Vec<f64>>();
+            let q: Vector = rows.iter().map(|&r| u[r]).collect();
+            let pick = |x: &[f64]| approaching.iter().map(|&i| x[i]).collect::<Vector>();
             let (friction, noise) = (pick(self.friction), pick(self.noise));
             let part = Rubbing { w: &w, q: &q, friction: &friction, noise: &noise, law: self.law };
 
-            let (stop, residual) = part.impact(&Wish::Impulse(vec![0.0; approaching.len()]));
+            let (stop, residual) = part.impact(&Wish::Impulse(zeros(approaching.len())));
             let back = |i: usize| if elastic[approaching[i]] { 1.0 } else { 0.0 };
             let count = approaching.len();
-            let impulses: Vec<f64> = (0..count).map(|i| (1.0 + back(i)) * stop[3 * i]).collect();
+            let impulses: Vector = (0..count).map(|i| (1.0 + back(i)) * stop[3 * i]).collect();
             let speeds = (0..count).map(|i| -back(i) * q[3 * i]).collect();
             let (pair, last, _) = part.restore(&stop, &impulses, speeds, None);
             worst = worst.max(residual).max(last);
@@ -157,7 +158,7 @@ impl Rubbing<'_> {
         // what the rounds have left is stopped
         let u = self.w.times_plus(&p, self.q);
         let rest = Rubbing { q: &u, ..*self };
-        let (stop, last) = rest.impact(&Wish::Impulse(vec![0.0; n]));
+        let (stop, last) = rest.impact(&Wish::Impulse(zeros(n)));
         for (p, s) in p.iter_mut().zip(&stop) {
             *p += s;
         }
@@ -165,18 +166,18 @@ impl Rubbing<'_> {
     }
 
     /// One impact that meets a wish.
-    fn impact(&self, wish: &Wish) -> (Vec<f64>, f64) {
+    fn impact(&self, wish: &Wish) -> (Vector, f64) {
         let n = self.friction.len();
-        let none = vec![None; n];
-        let mut q = self.q.to_vec();
-        let zeros = vec![0.0; n];
+        let none = PerContact::from_elem(None, n);
+        let mut q = Vector::from_slice(self.q);
+        let none_least = zeros(n);
         let floor = match wish {
             Wish::Impulse(floor) => floor,
             Wish::Velocity(speeds) => {
                 for i in 0..n {
                     q[3 * i] -= speeds[i];
                 }
-                &zeros
+                &none_least
             }
         };
         let found = Coulomb { w: self.w, q: &q, friction: self.friction, floor, slide: &none }.solve();
@@ -186,7 +187,7 @@ impl Rubbing<'_> {
     /// The restitution that the law asks for: Newton's normal velocities where they can be met without
     /// making energy, else the normal impulses, of which the largest part is taken that makes none and gives
     /// back no more than `limit`.
-    fn restore(&self, plastic: &[f64], impulses: &[f64], speeds: Vec<f64>, limit: Option<f64>) -> (Vec<f64>, f64, f64) {
+    fn restore(&self, plastic: &[f64], impulses: &[f64], speeds: Vector, limit: Option<f64>) -> (Vector, f64, f64) {
         let slack = GAIN * dot(self.q, self.q);
         let fits = |p: &[f64], residual: f64| {
             residual <= MET
@@ -199,12 +200,12 @@ impl Rubbing<'_> {
                 return (whole, residual, 1.0);
             }
         }
-        let (whole, residual) = self.impact(&Wish::Impulse(impulses.to_vec()));
+        let (whole, residual) = self.impact(&Wish::Impulse(Vector::from_slice(impulses)));
         if fits(&whole, residual) {
             return (whole, residual, 1.0);
         }
         let (mut low, mut high) = (0.0, 1.0);
-        let mut best = (plastic.to_vec(), 0.0, 0.0);
+        let mut best = (Vector::from_slice(plastic), 0.0, 0.0);
         for _ in 0..HALVINGS {
             let part = 0.5 * (low + high);
             let normal = plastic.iter().step_by(3);

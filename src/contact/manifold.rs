@@ -70,7 +70,7 @@ impl Manifold {
             a,
             b,
             point: 0.5 * (p.point_a + p.point_b),
-            normals: self.normals.clone(),
+            normals: self.normals[..].into(),
             friction,
             restitution,
         };

@@ -2,8 +2,9 @@
 
 use super::cluster::{ClusterBody, Contact, Frame, Row, matrix};
 use super::solver::active_set;
-use super::solver::dense::{Dense, largest};
+use super::solver::dense::{Dense, Vector, largest};
 use crate::math::Vector3;
+use smallvec::SmallVec;
 
 /// What rounding leaves of a relative velocity, as a fraction of the velocities it is the difference of [-].
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -17,14 +18,17 @@ pub(super) fn noise_of(bodies: &[ClusterBody], contact: &Contact) -> f64 {
     ROUNDING * (size(contact.a) + size(contact.b))
 }
 
+/// One entry a contact, on the stack up to four.
+pub(super) type PerContact<T> = SmallVec<[T; 4]>;
+
 /// The contact problem with each contact scaled to a diagonal near 1: `p = s p′, u′ = s u, W′ = s W s`.
 pub(super) struct Scaled {
     pub(super) w: Dense,
-    pub(super) q: Vec<f64>,
+    pub(super) q: Vector,
     /// s, one a contact.
-    pub(super) size: Vec<f64>,
+    pub(super) size: Vector,
     /// What rounding may leave of an approach, one a contact.
-    pub(super) noise: Vec<f64>,
+    pub(super) noise: Vector,
 }
 
 impl Scaled {
@@ -38,12 +42,12 @@ impl Scaled {
         speeds: &[Vector3],
         rows_per_contact: usize,
     ) -> Self {
-        let mut rows = Vec::new();
+        let mut rows = Vec::with_capacity(active.len() * rows_per_contact);
         for &contact in active {
             let frame = Frame::new(&normals[contact]);
             rows.extend(frame.0[..rows_per_contact].iter().map(|&direction| Row { contact, direction }));
         }
-        let (w, size) = scale_rows(&matrix(bodies, contacts, &rows), rows_per_contact);
+        let (w, size) = scale_rows(matrix(bodies, contacts, &rows), rows_per_contact);
         let q = rows
             .iter()
             .enumerate()
@@ -55,15 +59,16 @@ impl Scaled {
 }
 
 /// W scaled by one number per contact, its diagonal then near 1; and those numbers.
-fn scale_rows(w: &Dense, rows_per_contact: usize) -> (Dense, Vec<f64>) {
+fn scale_rows(mut w: Dense, rows_per_contact: usize) -> (Dense, Vector) {
     let count = w.size() / rows_per_contact;
     let mean = |k: usize| {
         let rows = k * rows_per_contact..(k + 1) * rows_per_contact;
         rows.map(|r| w.at(r, r)).sum::<f64>() / rows_per_contact as f64
     };
-    let size: Vec<f64> = (0..count).map(|k| if mean(k) > 0.0 { 1.0 / mean(k).sqrt() } else { 0.0 }).collect();
-    let scaled = Dense::from_fn(w.size(), |r, c| size[r / rows_per_contact] * w.at(r, c) * size[c / rows_per_contact]);
-    (scaled, size)
+    let scale = |mean: f64| if mean > 0.0 { 1.0 / mean.sqrt() } else { 0.0 };
+    let size: Vector = (0..count).map(|k| scale(mean(k))).collect();
+    w.scale(&size, rows_per_contact);
+    (w, size)
 }
 
 /// One normal for each contact: of a cone the direction of the plastic impulse without friction, in which each
@@ -82,8 +87,8 @@ pub(super) fn choose_normals(
         .iter()
         .flat_map(|&contact| contacts[contact].normals.iter().map(move |&direction| Row { contact, direction }))
         .collect();
-    let (w, size) = scale_rows(&matrix(bodies, contacts, &rows), 1);
-    let q: Vec<f64> = rows.iter().zip(&size).map(|(row, s)| s * row.direction.dot(&speeds[row.contact])).collect();
+    let (w, size) = scale_rows(matrix(bodies, contacts, &rows), 1);
+    let q: Vector = rows.iter().zip(&size).map(|(row, s)| s * row.direction.dot(&speeds[row.contact])).collect();
     let found = active_set::solve(&w, &q).impulse;
     let floor = CHOICE * largest(&found);
     for &i in active.iter().filter(|&&i| contacts[i].normals.len() > 1) {

@@ -24,11 +24,11 @@
 //! more energy than before; both sets are convex, so the mixture does too.
 
 use super::solver::active_set;
-use super::solver::dense::{Dense, dot};
+use super::solver::dense::{Dense, Vector, dot, zeros};
 
 /// Impulses, how well they solve what was asked, and how many rounds of reflections it took.
 pub(super) struct Reflected {
-    pub(super) impulse: Vec<f64>,
+    pub(super) impulse: Vector,
     pub(super) residual: f64,
     pub(super) rounds: u32,
 }
@@ -65,9 +65,9 @@ pub(super) fn reflect(w: &Dense, q: &[f64], restitution: &[f64], noise: &[f64]) 
     // one contact has the formula that all of this comes to
     if let (&[speed], &[e]) = (q, restitution) {
         let impulse = if speed < 0.0 { -(1.0 + e) * speed / w.at(0, 0) } else { 0.0 };
-        return Reflected { impulse: vec![impulse], residual: 0.0, rounds: 1 };
+        return Reflected { impulse: Vector::from_slice(&[impulse]), residual: 0.0, rounds: 1 };
     }
-    let mut mixed = Reflected { impulse: vec![0.0; q.len()], residual: 0.0, rounds: 0 };
+    let mut mixed = Reflected { impulse: zeros(q.len()), residual: 0.0, rounds: 0 };
     for (weight, elastic) in slices(restitution) {
         let answer = answer(w, q, &elastic, noise);
         for (sum, p) in mixed.impulse.iter_mut().zip(&answer.impulse) {
@@ -82,7 +82,7 @@ pub(super) fn reflect(w: &Dense, q: &[f64], restitution: &[f64], noise: &[f64]) 
 /// The answer where each contact is either elastic or plastic.
 fn answer(w: &Dense, q: &[f64], elastic: &[bool], noise: &[f64]) -> Reflected {
     let n = q.len();
-    let mut p = vec![0.0; n];
+    let mut p = zeros(n);
     let mut worst = 0.0f64;
     let mut rounds = 0;
     if elastic.contains(&true) {
@@ -95,12 +95,12 @@ fn answer(w: &Dense, q: &[f64], elastic: &[bool], noise: &[f64]) -> Reflected {
             }
             rounds = round;
             let part = w.part(&approaching);
-            let speeds: Vec<f64> = approaching.iter().map(|&i| u[i]).collect();
+            let speeds: Vector = approaching.iter().map(|&i| u[i]).collect();
             let stop = active_set::solve(&part, &speeds);
             worst = worst.max(stop.residual);
 
             // what the elastic contacts give back is at most what stopping has taken
-            let back: Vec<f64> =
+            let back: Vector =
                 approaching.iter().zip(&stop.impulse).map(|(&i, p)| if elastic[i] { *p } else { 0.0 }).collect();
             let (taken, given) = (part.quadratic(&stop.impulse), part.quadratic(&back));
             let share = if given > taken { (taken / given).max(0.0).sqrt() } else { 1.0 };

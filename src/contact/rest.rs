@@ -27,11 +27,11 @@
 //! [`collide`](super::collision::collide) on the same contacts.
 
 use super::cluster::{ClusterBody, ClusterError, Contact, Frame, Row, Velocity, check, matrix, relative};
-use super::problem::{Scaled, choose_normals};
+use super::problem::{PerContact, Scaled, choose_normals};
 use super::solver::Coulomb;
-use super::solver::dense::{Dense, largest, least_norm};
+use super::solver::dense::{Dense, Vector, largest, least_norm, zeros};
 use crate::math::Vector3;
-use crate::state::Load;
+use crate::state::{BodyMotion, Load};
 
 /// Acceleration of a body, world axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,13 +117,19 @@ impl Support {
 
     /// Rounds about two lines that cross, of these directions in world axes and radii [m], 0 of an edge: the point
     /// stays between the points of the lines that are nearest to each other.
-    pub fn line_on_line(
+    pub fn line_on_line(contact: Contact, bodies: &[ClusterBody], along: [&Vector3; 2], radii: [f64; 2]) -> Self {
+        let motions = [contact.a, contact.b].map(|k| &bodies[k].motion);
+        Self::between_lines(contact, motions, along, radii)
+    }
+
+    /// The same for these motions of a and b.
+    pub(super) fn between_lines(
         contact: Contact,
-        bodies: &[ClusterBody],
+        [a, b]: [&BodyMotion; 2],
         [along_a, along_b]: [&Vector3; 2],
         [radius_a, radius_b]: [f64; 2],
     ) -> Self {
-        let (a, b, n) = (&bodies[contact.a].motion, &bodies[contact.b].motion, contact.normals[0]);
+        let n = contact.normals[0];
         let across = along_a.cross(along_b);
         let side = across.dot(&n);
         let turning =
@@ -211,7 +217,7 @@ pub fn rest_sliding(
     if sliding.len() != supports.len() {
         return Err(ClusterError::Lengths { bodies: supports.len(), accelerations: sliding.len() });
     }
-    let frames: Vec<Frame> = supports.iter().map(|s| Frame::new(&s.contact.normals[0])).collect();
+    let frames: PerContact<Frame> = supports.iter().map(|s| Frame::new(&s.contact.normals[0])).collect();
     solve(bodies, free, supports, |i, _| {
         let [_, first, second] = frames[i].components(&sliding[i]?);
         let length = libm::hypot(first, second);
@@ -232,8 +238,8 @@ fn solve(
         return Err(ClusterError::Lengths { bodies: bodies.len(), accelerations: free.len() });
     }
     let velocities: Vec<Velocity> = bodies.iter().map(ClusterBody::velocity).collect();
-    let slips: Vec<Vector3> = contacts.iter().map(|c| relative(bodies, c, &velocities)).collect();
-    let active: Vec<usize> = (0..contacts.len())
+    let slips: PerContact<Vector3> = contacts.iter().map(|c| relative(bodies, c, &velocities)).collect();
+    let active: PerContact<usize> = (0..contacts.len())
         .filter(|&i| !(bodies[contacts[i].a].mobility.is_none() && bodies[contacts[i].b].mobility.is_none()))
         .collect();
 
@@ -244,9 +250,9 @@ fn solve(
             + a.angular.cross(&body.lever(&s.contact.point))
             + body.motion.angular_velocity.cross(&(s.point_velocity - body.motion.velocity))
     };
-    let bare: Vec<Vector3> = supports.iter().map(|s| at(s.contact.b, s) - at(s.contact.a, s)).collect();
+    let bare: PerContact<Vector3> = supports.iter().map(|s| at(s.contact.b, s) - at(s.contact.a, s)).collect();
     let normals = choose_normals(bodies, &contacts, &active, &bare);
-    let turned: Vec<Vector3> = supports
+    let turned: PerContact<Vector3> = supports
         .iter()
         .zip(&bare)
         .zip(slips.iter().zip(&normals))
@@ -255,9 +261,9 @@ fn solve(
 
     // the problem in the frames of the contacts, sliding ones with their direction
     let mut scaled = Scaled::new(bodies, &contacts, &active, &normals, &turned, 3);
-    let frames: Vec<Frame> = normals.iter().map(Frame::new).collect();
-    let friction: Vec<f64> = active.iter().map(|&i| contacts[i].friction).collect();
-    let slide: Vec<Option<[f64; 2]>> = active
+    let frames: PerContact<Frame> = normals.iter().map(Frame::new).collect();
+    let friction: Vector = active.iter().map(|&i| contacts[i].friction).collect();
+    let slide: PerContact<Option<[f64; 2]>> = active
         .iter()
         .map(|&i| {
             let [_, first, second] = frames[i].components(&slips[i]);
@@ -267,7 +273,7 @@ fn solve(
     if active.len() > 1 && slide.iter().all(Option::is_none) {
         drop_unavoidable(&scaled.w, &mut scaled.q);
     }
-    let floor = vec![0.0; active.len()];
+    let floor = zeros(active.len());
     let problem = Coulomb { w: &scaled.w, q: &scaled.q, friction: &friction, floor: &floor, slide: &slide };
     let found = problem.solve();
     if found.residual > INCONSISTENT {
@@ -312,7 +318,7 @@ fn solve(
 /// against each other without moving it, and then cannot all be told how to move: two points of a line that rolls
 /// keep their distance whatever acts. While neither slips both laws agree, and what is left is a step's error.
 fn drop_unavoidable(w: &Dense, q: &mut [f64]) {
-    let stop: Vec<f64> = q.iter().map(|q| -q).collect();
+    let stop: Vector = q.iter().map(|q| -q).collect();
     let left = w.times_plus(&least_norm(w, &stop), q);
     if largest(&left) <= STEP_ERROR * largest(q) {
         q.iter_mut().zip(left).for_each(|(q, left)| *q -= left);

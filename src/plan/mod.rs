@@ -18,6 +18,7 @@ use crate::math::sum::Time;
 use crate::math::{Matrix3, Vector3, quaternion};
 use crate::scene::{Body, Finder, Orientation, RunOptions, Scene};
 use crate::state::{BodyMotion, BodyState};
+use smallvec::SmallVec;
 
 mod compound;
 pub mod cost;
@@ -92,7 +93,7 @@ pub(crate) struct Binding {
 
 impl Binding {
     /// The motions of those members of a group that the effect acts on.
-    pub(crate) fn seen(&self, members: &[BodyMotion]) -> Vec<BodyMotion> {
+    pub(crate) fn seen(&self, members: &[BodyMotion]) -> SmallVec<[BodyMotion; 1]> {
         self.members.iter().map(|&i| members[i]).collect()
     }
 }

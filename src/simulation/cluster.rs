@@ -14,6 +14,7 @@ use crate::math::{Pose, Vector3, quaternion};
 use crate::shape::Shape;
 use crate::state::BodyMotion;
 use crate::tolerance::TOUCH_GAP;
+use smallvec::SmallVec;
 
 /// Two bodies that touch, and where.
 pub(super) struct Touching {
@@ -175,7 +176,7 @@ impl Simulation {
                 for (point, mut contact) in found.points.iter().zip(contacts) {
                     let (anchor, walls) = Anchor::new(&faced_a, &faced_b, &found, point, slack).unzip();
                     if let Some(anchor) = &anchor {
-                        contact.normals = vec![anchor.normal(&motions[0], &motions[1])];
+                        contact.normals = SmallVec::from_buf([anchor.normal(&motions[0], &motions[1])]);
                     }
                     cluster.gaps.push(anchor.map_or(point.gap, |anchor| anchor.gap(&motions[0], &motions[1])));
                     cluster.contacts.push(contact);

@@ -19,6 +19,7 @@ use crate::math::{Vector3, quaternion};
 use crate::plan::FlightGroup;
 use crate::state::{BodyMotion, Load, Moment};
 use crate::trajectory::Heat;
+use smallvec::SmallVec;
 
 /// Acceleration that contact forces may leave of the loads' for an equilibrium [-]; solvers leave 1e-11.
 const EQUILIBRIUM: f64 = 1.0e-9;
@@ -223,14 +224,14 @@ impl Simulation {
         time: Time,
     ) -> Result<Held, SimulationError> {
         let bodies = self.cluster_bodies(cluster, motions);
-        let mut supports = Vec::new();
+        let mut supports = Vec::with_capacity(contacts.len());
         for &i in contacts {
             let contact = &cluster.contacts[i];
             let still = [contact.a, contact.b]
                 .iter()
                 .all(|&k| motions[k].velocity == Vector3::zeros() && motions[k].angular_velocity == Vector3::zeros());
             supports.push(match &cluster.anchors[i] {
-                Some(anchor) => anchor.support(contact, &bodies),
+                Some(anchor) => anchor.support(contact, motions),
                 None if still => {
                     let [point_velocity, normal_rate] = [Vector3::zeros(); 2];
                     Support { contact: contact.clone(), point_velocity, normal_rate }
@@ -241,7 +242,7 @@ impl Simulation {
                 }
             });
         }
-        let mut free = Vec::new();
+        let mut free = Vec::with_capacity(bodies.len());
         for (&body, cluster_body) in cluster.bodies.iter().zip(&bodies) {
             free.push(match self.places[body] {
                 Some((lane, _)) if !self.is_driven(body) => {
@@ -271,7 +272,7 @@ impl Simulation {
     pub(super) fn load_on(&self, index: usize, motion: &BodyMotion, at: Moment) -> Load {
         let lane = &self.lanes[index];
         let moving = lane.spec.members.iter().position(|&i| !self.body(i).fixed).unwrap_or(0);
-        let mut motions = lane.motions.clone();
+        let mut motions = SmallVec::<[BodyMotion; 1]>::from_slice(&lane.motions);
         motions[moving] = *motion;
         follow(&lane.charts, &mut motions);
         let mut total = self.loads_on(index, &motions, at);
@@ -286,14 +287,14 @@ impl Simulation {
     }
 
     /// The loads of all effects on the members of a lane that move so.
-    pub(super) fn loads_on(&self, lane: usize, motions: &[BodyMotion], at: Moment) -> Vec<Load> {
+    pub(super) fn loads_on(&self, lane: usize, motions: &[BodyMotion], at: Moment) -> SmallVec<[Load; 1]> {
         let spec = self.spec_of(lane);
         let lane = &self.lanes[lane];
-        let mut total = vec![Load::zero(); motions.len()];
+        let mut total = SmallVec::<[Load; 1]>::from_elem(Load::zero(), motions.len());
         let off = lane.loads_off(spec);
         for binding in spec.bindings.iter().filter(|binding| !off.contains(&binding.effect_index)) {
             let seen = binding.seen(motions);
-            let mut loads = vec![Load::zero(); seen.len()];
+            let mut loads = SmallVec::<[Load; 1]>::from_elem(Load::zero(), seen.len());
             binding.effect.as_effect().add_to(at, &seen, &mut loads);
             for (&member, own) in binding.members.iter().zip(&loads) {
                 total[member].force += own.force;

@@ -14,7 +14,7 @@
 use super::answer::ContactScales;
 use super::cluster::Cluster;
 use super::lasting::{Held, Part, Together, across, shift_by, tangents};
-use super::step::{End, Kind, Numbers, Passed, Slips, Step};
+use super::step::{Coordinates, End, Kind, Numbers, Passed, Predicted, Slips, Stage, Start, Step, Within};
 use super::{Failure, Simulation, SimulationError};
 use crate::contact::anchor::Anchor;
 use crate::contact::cluster::Contact;
@@ -67,46 +67,48 @@ impl Simulation {
                 return Err(self.lasting(cluster, &cluster.contacts[part.contacts[0]], time, &why));
             }
             let chart = self.lanes[lane].charts[member].clone();
-            let mut y = vec![0.0; chart.dimension()];
+            let mut y = Coordinates::from_elem(0.0, chart.dimension());
             chart.encode(&cluster.motions[place].state(), &mut y);
             led.push(Numbers { place, lane, chart, y });
         }
-        let gaps: Vec<f64> = part.contacts.iter().map(|&i| cluster.gaps[i]).collect();
+        let gaps = part.contacts.iter().map(|&i| cluster.gaps[i]).collect();
+        let start = Start { cluster, part, scales, time, led, gaps };
 
-        let (own, left, next) = self.length(cluster, part, &led, scales, time);
+        let (own, left, next) = self.length(&start);
         let full = if own < left { own } else { left };
         let mut h = full;
 
         // shorter, where a slip turns round or another point touches within it, or where a slip that dies is
         // slow: its direction changes in u/(μ a). What begins to slide takes the whole step at once
         let mut kind = Kind::Explicit;
-        let mut step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
+        let begun = self.begin(&start, None)?;
+        let mut step = self.try_step(&start, &begun, h, kind)?;
         for _ in 0..SHORTER {
-            let shorter = self.first_end(cluster, part, &led, &step, time)?;
+            let shorter = self.first_end(&start, &step)?;
             if shorter < SAME * h && shorter > 0.0 {
                 h = shorter;
-                step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
+                step = self.try_step(&start, &begun, h, kind)?;
                 continue;
             }
             if kind == Kind::Implicit {
                 break;
             }
-            match self.slips(cluster, part, scales, &step) {
+            match slips(&start, &step) {
                 Slips::Fast => break,
                 Slips::Dying(suits) => h = suits.min(h),
                 Slips::Beginning if kind == Kind::Explicit => kind = Kind::Straight,
                 Slips::Beginning => kind = Kind::Implicit,
             }
-            step = self.try_step(cluster, part, &led, &gaps, scales, time, h, kind)?;
+            step = self.try_step(&start, &begun, h, kind)?;
         }
 
-        if step.lets_go() {
-            step = self.until_let_go(cluster, part, &led, &gaps, scales, time, step)?;
+        if step.lets_go {
+            step = self.until_let_go(&start, &begun, step)?;
             h = step.h;
         }
 
         // steps that stay short for ever: touches that follow each other without end
-        let shorts = led.iter().map(|n| self.lanes[n.lane].short).fold(0, u32::max);
+        let shorts = start.led.iter().map(|n| self.lanes[n.lane].short).fold(0, u32::max);
         let shorts = if h < SHORT * full { shorts + 1 } else { 0 };
         if shorts > SHORTS {
             let why = format!("{SHORTS} steps in a row end in new touches, the last one after {h:e} s");
@@ -117,7 +119,7 @@ impl Simulation {
         let front = if h == left { Time::new(next) } else { time + h };
         self.together_number += 1;
         let number = self.together_number;
-        for (n, end) in led.iter().zip(&step.ends) {
+        for (n, end) in start.led.iter().zip(&step.ends) {
             let since = self.moment(n.lane, time.value).since;
             let mut segment = Segment::default();
             segment.set_hermite(Moment { time: time.value, since }, h, [&n.y, &end.k0, &end.y1, &end.k1]);
@@ -128,7 +130,7 @@ impl Simulation {
             counts.evaluations += 4;
             let rest = vec![0.0; end.y1.len()];
             lane.short = shorts;
-            lane.flight.resume(&Front { time: front, since, y: end.y1.clone(), rest }, segment, counts);
+            lane.flight.resume(&Front { time: front, since, y: end.y1.to_vec(), rest }, segment, counts);
             lane.pending = Some(f64::INFINITY);
         }
         let [heat, work] = [(&mut self.heat, &step.heat), (&mut self.work, &step.work)].map(|(list, passed)| {
@@ -140,7 +142,7 @@ impl Simulation {
         let pairs = cluster.touching.iter().filter(|t| part.contacts.iter().any(|i| t.contacts.contains(i)));
         let pairs = pairs.map(|t| t.bodies).collect();
         let bodies: Vec<usize> = part.places.iter().map(|&place| cluster.bodies[place]).collect();
-        let sliding = self.go_on_sliding(cluster, part, scales, &step);
+        let sliding = go_on_sliding(&start, &step);
         let slot = self.together.iter().position(Option::is_none).unwrap_or(self.together.len());
         if slot == self.together.len() {
             self.together.push(None);
@@ -157,40 +159,24 @@ impl Simulation {
 
     /// The step to the instant at which a contact is let go or begins to slip in it. It is found by steps of several
     /// lengths: forces that end within a step make its polynomials useless for that.
-    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
-    fn until_let_go(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        gaps: &[f64],
-        scales: &ContactScales,
-        time: Time,
-        whole: Step,
-    ) -> Result<Step, SimulationError> {
+    fn until_let_go(&self, start: &Start<'_>, begun: &Stage, whole: Step) -> Result<Step, SimulationError> {
         let (mut low, mut high, mut last) = (0.0, whole.h, None);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            let tried = self.try_step(cluster, part, led, gaps, scales, time, middle, whole.kind)?;
+            let tried = self.predict(start, begun, middle, whole.kind)?;
             if tried.lets_go() {
                 (high, last) = (middle, Some(tried));
             } else {
                 low = middle;
             }
         }
-        Ok(last.filter(|_| low > 0.0).unwrap_or(whole))
+        Ok(last.filter(|_| low > 0.0).map_or(whole, |predicted| self.put_right(start, predicted)))
     }
 
     /// How long a step of a part may be: as its loads and turning allow, and what is left up to the next switch
     /// [s]; and when that is.
-    fn length(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        scales: &ContactScales,
-        time: Time,
-    ) -> (f64, f64, f64) {
+    fn length(&self, start: &Start<'_>) -> (f64, f64, f64) {
+        let &Start { cluster, part, scales, time, ref led, .. } = start;
         let switches = led.iter().flat_map(|n| &self.lanes[n.lane].spec.switches);
         let jumps = cluster.bodies.iter().map(|&body| self.next_jump(body, time.value));
         let next = switches.copied().filter(|&s| s > time.value).chain(jumps).fold(self.end, f64::min);
@@ -212,93 +198,78 @@ impl Simulation {
         (own, left, next)
     }
 
-    /// The contacts that go on sliding after a step, with their directions.
-    fn go_on_sliding(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        scales: &ContactScales,
-        step: &Step,
-    ) -> Vec<([usize; 2], Vector3, Vector3)> {
-        let mut sliding = Vec::new();
-        for (&i, way) in part.contacts.iter().zip(&part.slides) {
-            let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
-            let contact = &cluster.contacts[i];
-            let start = contact.slip(&cluster.motions);
-            let contact = anchor.support(contact, &self.cluster_bodies(cluster, &step.motions)).contact;
-            let end = contact.slip(&step.motions);
-            if way.dot(&end) > scales.slip || way.dot(&end) > way.dot(&start) {
-                let slip = across(&end, &contact.normals[0]);
-                let way = if way.dot(&slip) > 0.0 { slip.normalize() } else { *way };
-                sliding.push(([contact.a, contact.b].map(|k| cluster.bodies[k]), contact.point, way));
-            }
-        }
-        sliding
+    /// One step of length `h` [s], with its gaps and contact speeds put right at its end.
+    fn try_step(&self, start: &Start<'_>, begun: &Stage, h: f64, kind: Kind) -> Result<Step, SimulationError> {
+        Ok(self.put_right(start, self.predict(start, begun, h, kind)?))
     }
 
-    /// One step of length `h` [s], with its gaps and contact speeds put right at its end.
-    #[expect(clippy::too_many_arguments, reason = "what a step is made of")]
-    fn try_step(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        gaps: &[f64],
-        scales: &ContactScales,
-        time: Time,
-        h: f64,
-        kind: Kind,
-    ) -> Result<Step, SimulationError> {
-        let is_driver = |k: usize| self.body(cluster.bodies[k]).motion.is_some();
-        let (mut heat, mut work, mut first) = (Passed::default(), Passed::default(), Vec::new());
-        let (mut starts, mut pushed) = (Vec::new(), Vec::new());
+    /// What the contacts do at the start of a step; a straight one has this length [s].
+    fn begin(&self, start: &Start<'_>, straight: Option<f64>) -> Result<Stage, SimulationError> {
+        let y: Vec<Coordinates> = start.led.iter().map(|n| n.y.clone()).collect();
+        let motions = self.stage(start.cluster, &start.led, &y, (start.time, 0.0));
+        self.rates(start, &motions, &y, straight, start.time)
+    }
+
+    /// One step of length `h` [s] by its method alone; `begun` is what the contacts do at its start.
+    fn predict(&self, start: &Start<'_>, begun: &Stage, h: f64, kind: Kind) -> Result<Predicted, SimulationError> {
+        let &Start { cluster, part, time, ref led, .. } = start;
+        let (mut heat, mut work, mut pushed) = (Passed::default(), Passed::default(), Vec::new());
         let straight = (kind == Kind::Straight).then_some(h);
-        let mut y1: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
+        let mut y1: Vec<Coordinates> = led.iter().map(|n| n.y.clone()).collect();
+
+        // the start, which depends on how the step is taken
+        let own = match kind {
+            Kind::Explicit => None,
+            Kind::Straight => Some(self.begin(start, straight)?),
+            Kind::Implicit => Some(self.rates(start, &cluster.motions, &y1, None, time)?),
+        };
+        let first = own.as_ref().unwrap_or(begun);
+        [heat.power[0], work.power[0]] = first.power;
+
+        // the numbers at the end
         if kind == Kind::Implicit {
-            let start: Vec<Vec<f64>> = led.iter().map(|n| n.y.clone()).collect();
-            let (held, rates) = self.rates(cluster, part, led, &cluster.motions, &start, scales, None, time)?;
-            starts.clone_from(&held.rest.holds);
-            (first, heat.power[0], work.power[0]) = (rates, held.heat(), held.drive(&cluster.motions, is_driver));
             let motions;
             (motions, heat.joules, work.joules, pushed) = self.implicit(cluster, part, time, h)?;
             for (n, y) in led.iter().zip(&mut y1) {
                 n.chart.encode(&motions[n.place].state(), y);
             }
         } else {
-            let mut k: Vec<Vec<f64>> = Vec::new();
-            for (at, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
-                let y: Vec<Vec<f64>> = led
-                    .iter()
-                    .enumerate()
-                    .map(|(i, n)| match k.get(i) {
-                        Some(k) => n.y.iter().zip(k).map(|(y, k)| y + at * h * k).collect(),
-                        None => n.y.clone(),
-                    })
-                    .collect();
-                let motions = self.stage(cluster, led, &y, (time, at * h));
-                let (held, rates) = self.rates(cluster, part, led, &motions, &y, scales, straight, time + at * h)?;
-                let power = [held.heat(), held.drive(&motions, is_driver)];
-                heat.joules += weight / 6.0 * h * power[0];
-                work.joules += weight / 6.0 * h * power[1];
-                for (y, k) in y1.iter_mut().zip(&rates) {
+            let mut pass = |stage: &Stage, weight: f64| {
+                heat.joules += weight / 6.0 * h * stage.power[0];
+                work.joules += weight / 6.0 * h * stage.power[1];
+                for (y, k) in y1.iter_mut().zip(&stage.rates) {
                     y.iter_mut().zip(k).for_each(|(y, k)| *y += weight / 6.0 * h * k);
                 }
-                if first.is_empty() {
-                    first.clone_from(&rates);
-                    starts.clone_from(&held.rest.holds);
-                    [heat.power[0], work.power[0]] = power;
-                }
-                k = rates;
+            };
+            pass(first, 1.0);
+            let mut last: Option<Stage> = None;
+            for (at, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
+                let slopes = &last.as_ref().unwrap_or(first).rates;
+                let along = |(n, k): (&Numbers, &Coordinates)| n.y.iter().zip(k).map(|(y, k)| y + at * h * k).collect();
+                let y: Vec<Coordinates> = led.iter().zip(slopes).map(along).collect();
+                let motions = self.stage(cluster, led, &y, (time, at * h));
+                let stage = self.rates(start, &motions, &y, straight, time + at * h)?;
+                pass(&stage, weight);
+                last = Some(stage);
             }
         }
+        let (k0, starts) = (first.rates.clone(), first.held.rest.holds.clone());
 
-        // gaps as they were, no speed along the normals of what carries, none at all where it sticks
-        let mut motions = self.stage(cluster, led, &y1, (time, h));
+        // the motions there, and what the contacts do
+        let motions = self.stage(cluster, led, &y1, (time, h));
         if motions.iter().any(|motion| !motion.is_finite()) {
             return Err(self.failure_of(&cluster.bodies, time.value, Failure::Flight(FlightError::NotFinite)));
         }
-        let (held, _) = self.rates(cluster, part, led, &motions, &y1, scales, straight, time + h)?;
-        [heat.power[1], work.power[1]] = [held.heat(), held.drive(&motions, is_driver)];
+        let held = self.laws(start, &motions, straight, time + h)?;
+        [heat.power[1], work.power[1]] = self.power(cluster, &held, &motions);
+        Ok(Predicted { h, kind, k0, y1, motions, heat, work, starts, held, pushed })
+    }
+
+    /// The step with its gaps as they were, no speed along the normals of what carries, none at all where it sticks.
+    fn put_right(&self, start: &Start<'_>, predicted: Predicted) -> Step {
+        let Start { cluster, part, scales, time, led, gaps } = start;
+        let lets_go = predicted.lets_go();
+        let Predicted { h, kind, k0, mut y1, mut motions, mut heat, work, held, pushed, .. } = predicted;
         let (mut rows, mut lifts, mut stops, mut carrying) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (i, &c) in part.contacts.iter().enumerate() {
             let (contact, slip) = (&held.contacts[i], &held.slips[i]);
@@ -334,9 +305,9 @@ impl Simulation {
         for (n, y) in led.iter().zip(&mut y1) {
             n.chart.encode(&motions[n.place].state(), y);
         }
-        let last = self.rates_under(led, &motions, &y1, &held, time + h);
-        let ends = first.into_iter().zip(y1).zip(last).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
-        Ok(Step { h, kind, ends, motions, heat, work, carrying, holds: [starts, held.rest.holds] })
+        let k1 = self.rates_under(led, &motions, &y1, &held, *time + h);
+        let ends = k0.into_iter().zip(y1).zip(k1).map(|((k0, y1), k1)| End { k0, y1, k1 }).collect();
+        Step { h, kind, ends, motions, heat, work, carrying, lets_go }
     }
 
     /// The motions after one plastic impact of what the loads give in the time `h` [s], with the bodies and
@@ -390,7 +361,7 @@ impl Simulation {
             .iter()
             .map(|&i| {
                 let contact = &cluster.contacts[i];
-                cluster.anchors[i].map_or_else(|| contact.clone(), |anchor| anchor.support(contact, &bodies).contact)
+                cluster.anchors[i].map_or_else(|| contact.clone(), |anchor| anchor.support(contact, &pushed).contact)
             })
             .collect();
         let contacts: Vec<Contact> = contacts.into_iter().map(|contact| contact.restitution(0.0)).collect();
@@ -420,56 +391,39 @@ impl Simulation {
         Ok((motions, heat, after.work, pushed))
     }
 
-    /// How the slips of a step compare with what friction changes in it.
-    fn slips(&self, cluster: &Cluster, part: &Part, scales: &ContactScales, step: &Step) -> Slips {
-        let bodies = self.cluster_bodies(cluster, &step.motions);
-        let (mut shortest, mut begins) = (f64::INFINITY, false);
-        for (&i, way) in part.contacts.iter().zip(&part.slides) {
-            let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
-            let contact = &cluster.contacts[i];
-            let change = STIFF * contact.friction * scales.pull;
-            let start = contact.slip(&cluster.motions);
-            let moved = anchor.support(contact, &bodies).contact;
-            let end = moved.slip(&step.motions);
-            let speed = across(&start, &contact.normals[0]).norm();
-            if speed >= change * step.h || (way.dot(&end) < way.dot(&start) && end.norm() <= scales.slip) {
-                continue; // fast enough, or come to its end
-            }
-            if way.dot(&end) < way.dot(&start) && speed > scales.slip {
-                shortest = shortest.min(speed / change);
-            } else {
-                let turns = moved.normals[0].cross(way).dot(&end).abs() > STRAIGHT * end.norm();
-                begins |= turns || step.kind == Kind::Explicit;
-            }
-        }
-        if begins {
-            Slips::Beginning
-        } else if shortest.is_finite() {
-            Slips::Dying(shortest)
-        } else {
-            Slips::Fast
-        }
-    }
-
-    /// What the contacts do at these motions, and the rates of the numbers; in a straight step of this length [s], what
-    /// slides slowly goes on as it began.
-    #[expect(clippy::too_many_arguments, reason = "what a stage is made of")]
+    /// What the contacts do at these motions, and the rates of the numbers; see [`laws`](Self::laws).
     fn rates(
         &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
+        start: &Start<'_>,
         motions: &[BodyMotion],
-        y: &[Vec<f64>],
-        scales: &ContactScales,
+        y: &[Coordinates],
         straight: Option<f64>,
         time: Time,
-    ) -> Result<(Held, Vec<Vec<f64>>), SimulationError> {
+    ) -> Result<Stage, SimulationError> {
+        let held = self.laws(start, motions, straight, time)?;
+        let power = self.power(start.cluster, &held, motions);
+        Ok(Stage { rates: self.rates_under(&start.led, motions, y, &held, time), held, power })
+    }
+
+    /// Power of friction, and of bodies on prescribed motions [W].
+    fn power(&self, cluster: &Cluster, held: &Held, motions: &[BodyMotion]) -> [f64; 2] {
+        [held.heat(), held.drive(motions, |k| self.body(cluster.bodies[k]).motion.is_some())]
+    }
+
+    /// What the contacts do at these motions; in a straight step of this length [s], what slides slowly goes on as it
+    /// began.
+    fn laws(
+        &self,
+        start: &Start<'_>,
+        motions: &[BodyMotion],
+        straight: Option<f64>,
+        time: Time,
+    ) -> Result<Held, SimulationError> {
         // friction opposes the slip, on the side of the step's beginning
-        let bodies = self.cluster_bodies(cluster, motions);
+        let &Start { cluster, part, scales, .. } = start;
         let slide = |(i, way): (&usize, &Option<Vector3>)| {
             let (contact, way) = (&cluster.contacts[*i], (*way)?);
-            let now = cluster.anchors[*i].map(|anchor| anchor.support(contact, &bodies).contact);
+            let now = cluster.anchors[*i].map(|anchor| anchor.support(contact, motions).contact);
             let contact = now.as_ref().unwrap_or(contact);
             let slip = across(&contact.slip(motions), &contact.normals[0]);
             let speed = slip.norm();
@@ -477,9 +431,7 @@ impl Simulation {
             Some(if speed > scales.slip.max(least) { slip / speed * slip.dot(&way).signum() } else { way })
         };
         let slides: Vec<Option<Vector3>> = part.contacts.iter().zip(&part.slides).map(slide).collect();
-        let held = self.held(cluster, motions, &part.contacts, &slides, time)?;
-        let rates = self.rates_under(led, motions, y, &held, time);
-        Ok((held, rates))
+        self.held(cluster, motions, &part.contacts, &slides, time)
     }
 
     /// The rates of the numbers under the loads and these contact forces.
@@ -487,10 +439,10 @@ impl Simulation {
         &self,
         led: &[Numbers],
         motions: &[BodyMotion],
-        y: &[Vec<f64>],
+        y: &[Coordinates],
         held: &Held,
         time: Time,
-    ) -> Vec<Vec<f64>> {
+    ) -> Vec<Coordinates> {
         led.iter()
             .zip(y)
             .map(|(n, y)| {
@@ -503,7 +455,7 @@ impl Simulation {
                         }
                     }
                 }
-                let mut dy = vec![0.0; y.len()];
+                let mut dy = Coordinates::from_elem(0.0, y.len());
                 n.chart.rate(y, motion, &load, &mut dy);
                 dy
             })
@@ -512,29 +464,9 @@ impl Simulation {
 
     /// The first instant within a step, from its start [s], at which a slip turns round, a contact comes to its end, or
     /// another point of a pair touches; else its length.
-    fn first_end(
-        &self,
-        cluster: &Cluster,
-        part: &Part,
-        led: &[Numbers],
-        step: &Step,
-        time: Time,
-    ) -> Result<f64, SimulationError> {
-        let mut segments = Vec::new();
-        for (n, end) in led.iter().zip(&step.ends) {
-            let mut segment = Segment::default();
-            let at = Moment { time: 0.0, since: 0.0 };
-            segment.set_hermite(at, step.h, [&n.y, &end.k0, &end.y1, &end.k1]);
-            segments.push(segment);
-        }
-        let motions_at = |s: f64| {
-            let y = led.iter().zip(&segments).map(|(n, segment)| {
-                let mut y = vec![0.0; n.y.len()];
-                segment.at_offset(s, &mut y);
-                y
-            });
-            self.stage(cluster, led, &y.collect::<Vec<_>>(), (time, s))
-        };
+    fn first_end(&self, start: &Start<'_>, step: &Step) -> Result<f64, SimulationError> {
+        let &Start { cluster, part, time, .. } = start;
+        let mut within = Within::new(self, start, step);
         let mut first = step.h;
 
         // slips
@@ -542,13 +474,13 @@ impl Simulation {
         for (&i, way) in part.contacts.iter().zip(sliding) {
             let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
             let along = |motions: &[BodyMotion]| {
-                let contact = anchor.support(&cluster.contacts[i], &self.cluster_bodies(cluster, motions)).contact;
+                let contact = anchor.support(&cluster.contacts[i], motions).contact;
                 way.dot(&contact.slip(motions))
             };
             if along(&step.motions) >= 0.0 || along(&cluster.motions) <= 0.0 {
                 continue;
             }
-            first = first.min(end_of(step.h, &|s| Ok(along(&motions_at(s)) > 0.0))?);
+            first = first.min(end_of(step.h, |s| along(within.at(s)) > 0.0));
         }
 
         // walls that a contact passes
@@ -560,7 +492,7 @@ impl Simulation {
                     let goes_on =
                         |motions: &[BodyMotion]| anchor.inside(wall, &motions[contact.a], &motions[contact.b]) > -slack;
                     if goes_on(&cluster.motions) && !goes_on(&step.motions) {
-                        first = first.min(end_of(step.h, &|s| Ok(goes_on(&motions_at(s))))?);
+                        first = first.min(end_of(step.h, |s| goes_on(within.at(s))));
                     }
                 }
             }
@@ -583,14 +515,14 @@ impl Simulation {
                 Ok::<f64, SimulationError>(-gap - anchors.iter().map(sunk).fold(0.0, f64::max))
             };
             let level = BELOW * self.eps(pair[0], pair[1]);
-            let end = if first < step.h { motions_at(first) } else { step.motions.clone() };
-            if below(&end)? <= level {
+            let end = if first < step.h { within.at(first) } else { &step.motions };
+            if below(end)? <= level {
                 continue;
             }
             let (mut low, mut high) = (0.0, first);
             for _ in 0..HALVINGS {
                 let middle = 0.5 * (low + high);
-                if below(&motions_at(middle))? <= level {
+                if below(within.at(middle))? <= level {
                     low = middle;
                 } else {
                     high = middle;
@@ -602,18 +534,68 @@ impl Simulation {
     }
 }
 
+/// The contacts that go on sliding after a step, with their directions.
+fn go_on_sliding(start: &Start<'_>, step: &Step) -> Vec<([usize; 2], Vector3, Vector3)> {
+    let &Start { cluster, part, scales, .. } = start;
+    let mut sliding = Vec::new();
+    for (&i, way) in part.contacts.iter().zip(&part.slides) {
+        let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
+        let contact = &cluster.contacts[i];
+        let start = contact.slip(&cluster.motions);
+        let contact = anchor.support(contact, &step.motions).contact;
+        let end = contact.slip(&step.motions);
+        if way.dot(&end) > scales.slip || way.dot(&end) > way.dot(&start) {
+            let slip = across(&end, &contact.normals[0]);
+            let way = if way.dot(&slip) > 0.0 { slip.normalize() } else { *way };
+            sliding.push(([contact.a, contact.b].map(|k| cluster.bodies[k]), contact.point, way));
+        }
+    }
+    sliding
+}
+
+/// How the slips of a step compare with what friction changes in it.
+fn slips(start: &Start<'_>, step: &Step) -> Slips {
+    let &Start { cluster, part, scales, .. } = start;
+    let (mut shortest, mut begins) = (f64::INFINITY, false);
+    for (&i, way) in part.contacts.iter().zip(&part.slides) {
+        let (Some(way), Some(anchor)) = (way, &cluster.anchors[i]) else { continue };
+        let contact = &cluster.contacts[i];
+        let change = STIFF * contact.friction * scales.pull;
+        let start = contact.slip(&cluster.motions);
+        let moved = anchor.support(contact, &step.motions).contact;
+        let end = moved.slip(&step.motions);
+        let speed = across(&start, &contact.normals[0]).norm();
+        if speed >= change * step.h || (way.dot(&end) < way.dot(&start) && end.norm() <= scales.slip) {
+            continue; // fast enough, or come to its end
+        }
+        if way.dot(&end) < way.dot(&start) && speed > scales.slip {
+            shortest = shortest.min(speed / change);
+        } else {
+            let turns = moved.normals[0].cross(way).dot(&end).abs() > STRAIGHT * end.norm();
+            begins |= turns || step.kind == Kind::Explicit;
+        }
+    }
+    if begins {
+        Slips::Beginning
+    } else if shortest.is_finite() {
+        Slips::Dying(shortest)
+    } else {
+        Slips::Fast
+    }
+}
+
 /// The end of what holds at the start of a step and not after the time `end` [s]: just behind it.
-fn end_of(end: f64, holds: &dyn Fn(f64) -> Result<bool, SimulationError>) -> Result<f64, SimulationError> {
+fn end_of(end: f64, mut holds: impl FnMut(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, end);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if holds(middle)? {
+        if holds(middle) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    Ok(high)
+    high
 }
 
 /// How far below the surface a point must come to count as touching, in ε [-].

@@ -280,6 +280,6 @@ fn a_ball_on_a_box_and_a_can_on_a_box() {
     assert!(
         contacts
             .iter()
-            .all(|c| (c.a, c.b, c.friction, c.restitution) == (3, 5, 0.2, 0.9) && c.normals == found.normals)
+            .all(|c| (c.a, c.b, c.friction, c.restitution) == (3, 5, 0.2, 0.9) && c.normals[..] == found.normals)
     );
 }

@@ -15,7 +15,7 @@
 //! Where the second step pulls or leaves an approach, the first is repeated about its own answer
 //! (Rockafellar's proximal point, 1976), which ends at a solution of the problem without δ.
 
-use super::dense::{Cholesky, Dense, largest, least_norm};
+use super::dense::{Cholesky, Dense, Vector, largest, least_norm, zeros};
 use super::{CERTIFIED, Solution};
 
 /// δ, as a fraction of W's unit diagonal [-]. Larger: the set is less that of the shortest solution.
@@ -30,17 +30,17 @@ const REPEATS: usize = 20;
 pub fn solve(w: &Dense, q: &[f64]) -> Solution {
     let scale = largest(q);
     if scale == 0.0 {
-        return Solution { impulse: vec![0.0; q.len()], residual: 0.0 };
+        return Solution { impulse: zeros(q.len()), residual: 0.0 };
     }
     let shifted = w.shifted(SHIFT);
-    let mut center = vec![0.0; q.len()];
+    let mut center = zeros(q.len());
     let mut best = Solution { impulse: center.clone(), residual: f64::INFINITY };
     for _ in 0..REPEATS {
-        let about: Vec<f64> = q.iter().zip(&center).map(|(q, c)| q - SHIFT * c).collect();
+        let about: Vector = q.iter().zip(&center).map(|(q, c)| q - SHIFT * c).collect();
         center = active_set(&shifted, &about);
         let set: Vec<usize> = (0..q.len()).filter(|&i| center[i] > 0.0).collect();
-        let wanted: Vec<f64> = set.iter().map(|&i| -q[i]).collect();
-        let mut polished = vec![0.0; q.len()];
+        let wanted: Vector = set.iter().map(|&i| -q[i]).collect();
+        let mut polished = zeros(q.len());
         for (&i, p) in set.iter().zip(least_norm(&w.part(&set), &wanted)) {
             polished[i] = p.max(0.0);
         }
@@ -60,15 +60,15 @@ pub fn solve(w: &Dense, q: &[f64]) -> Solution {
 /// The largest `|min(p, u)|`.
 fn residual(w: &Dense, q: &[f64], p: &[f64]) -> f64 {
     let smaller = |(u, p): (&f64, &f64)| if u.is_nan() || p.is_nan() { f64::NAN } else { u.min(*p) };
-    largest(&w.times_plus(p, q).iter().zip(p).map(smaller).collect::<Vec<f64>>())
+    largest(&w.times_plus(p, q).iter().zip(p).map(smaller).collect::<Vector>())
 }
 
 /// Lawson and Hanson's method on a positive definite matrix. Each pass of the outer loop lowers the
 /// objective, so no set comes twice; the bound only ends a race of roundings, with the best set so far.
-fn active_set(w: &Dense, q: &[f64]) -> Vec<f64> {
+fn active_set(w: &Dense, q: &[f64]) -> Vector {
     let n = q.len();
     let floor = 4.0 * f64::EPSILON * largest(q);
-    let mut p = vec![0.0; n];
+    let mut p = zeros(n);
     let mut set: Vec<usize> = Vec::new();
     for _ in 0..4 * n + 16 {
         // the fastest approach that is not in the set
@@ -80,7 +80,7 @@ fn active_set(w: &Dense, q: &[f64]) -> Vec<f64> {
 
         // drop what would pull, until nothing does
         while !set.is_empty() {
-            let wanted: Vec<f64> = set.iter().map(|&i| -q[i]).collect();
+            let wanted: Vector = set.iter().map(|&i| -q[i]).collect();
             let Some(factor) = Cholesky::new(&w.part(&set)) else { return p };
             let z = factor.solve(&wanted);
             if z.iter().all(|&z| z > 0.0) {
@@ -123,7 +123,7 @@ mod tests {
         // two unknowns, the second driven away by the first: p = (1, 0), u = (0, ½)
         let w = Dense::from_fn(2, |i, j| if i == j { 1.0 } else { 0.5 });
         let found = solve(&w, &[-1.0, 0.0]);
-        assert_eq!(found.impulse, [1.0, 0.0]);
+        assert_eq!(found.impulse[..], [1.0, 0.0]);
         // a body squeezed between two driven walls cannot be answered, and the residual says so
         let squeezed = Dense::from_fn(2, |i, j| if i == j { 1.0 } else { -1.0 });
         assert!(solve(&squeezed, &[-1.0, -1.0]).residual > 0.1);

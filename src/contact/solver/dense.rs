@@ -1,5 +1,7 @@
 //! Small dense systems: Cholesky's factor, and the solution of least norm.
 //!
+//! Vectors stand on the stack up to four contacts of three rows, which is what most clusters have.
+//!
 //! Written out here because the products of a general library pick their kernels, and so their last
 //! digits, by the processor they run on. Matrices are square, stored by columns.
 //!
@@ -12,6 +14,11 @@
 //! [R₁₁ R₁₂]ᵀ = Z [T; 0]          Householder again
 //! x = P Z [T⁻ᵀ (Qᵀ b)₁; 0]
 //! ```
+
+use smallvec::SmallVec;
+
+/// A vector of a small system.
+pub type Vector = SmallVec<[f64; 12]>;
 
 /// A square matrix, by columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,9 +67,27 @@ impl Dense {
         &self.entries[c * self.size..(c + 1) * self.size]
     }
 
+    /// Multiplies the entry (r, c) by `size[r / block] · size[c / block]`.
+    pub(crate) fn scale(&mut self, size: &[f64], block: usize) {
+        for (c, column) in self.entries.chunks_exact_mut(self.size.max(1)).enumerate() {
+            for (part, s) in column.chunks_mut(block).zip(size) {
+                for x in part {
+                    *x = s * *x * size[c / block];
+                }
+            }
+        }
+    }
+
+    /// Exchanges two columns.
+    fn swap_columns(&mut self, c: usize, d: usize) {
+        for row in 0..self.size {
+            self.entries.swap(c * self.size + row, d * self.size + row);
+        }
+    }
+
     /// `A x + b`.
-    pub fn times_plus(&self, x: &[f64], b: &[f64]) -> Vec<f64> {
-        let mut y = b.to_vec();
+    pub fn times_plus(&self, x: &[f64], b: &[f64]) -> Vector {
+        let mut y = Vector::from_slice(b);
         for (c, &factor) in x.iter().enumerate() {
             if factor != 0.0 {
                 for (y, a) in y.iter_mut().zip(self.column(c)) {
@@ -75,7 +100,7 @@ impl Dense {
 
     /// `xᵀ A x`.
     pub fn quadratic(&self, x: &[f64]) -> f64 {
-        dot(x, &self.times_plus(x, &vec![0.0; self.size]))
+        dot(x, &self.times_plus(x, &zeros(self.size)))
     }
 
     /// The rows and columns in `kept`.
@@ -93,6 +118,11 @@ impl Dense {
         }
         shifted
     }
+}
+
+/// A vector of zeros.
+pub fn zeros(size: usize) -> Vector {
+    Vector::from_elem(0.0, size)
 }
 
 /// `a · b`, added in order.
@@ -137,9 +167,9 @@ impl Cholesky {
     }
 
     /// Solves `A x = b`.
-    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+    pub fn solve(&self, b: &[f64]) -> Vector {
         let (l, n) = (&self.0, self.0.size);
-        let mut x = b.to_vec();
+        let mut x = Vector::from_slice(b);
         for c in 0..n {
             x[c] /= l.at(c, c);
             for r in c + 1..n {
@@ -163,14 +193,14 @@ impl Cholesky {
 const RANK: f64 = 1.0e-12;
 
 /// The shortest `x` of those that bring `A x` nearest to `b`; refined twice against the given matrix.
-pub fn least_norm(a: &Dense, b: &[f64]) -> Vec<f64> {
+pub fn least_norm(a: &Dense, b: &[f64]) -> Vector {
     if let Some(x) = solve_small(a, b) {
         return x;
     }
     let factors = Orthogonal::new(a);
     let mut x = factors.solve(b);
     for _ in 0..2 {
-        let minus: Vec<f64> = x.iter().map(|x| -x).collect();
+        let minus: Vector = x.iter().map(|x| -x).collect();
         let rest = a.times_plus(&minus, b);
         for (x, dx) in x.iter_mut().zip(factors.solve(&rest)) {
             *x += dx;
@@ -181,7 +211,7 @@ pub fn least_norm(a: &Dense, b: &[f64]) -> Vec<f64> {
 
 /// The solution for up to three unknowns, by elimination with the largest pivot of all first, refined once; none
 /// where the rank is deficient.
-fn solve_small(a: &Dense, b: &[f64]) -> Option<Vec<f64>> {
+fn solve_small(a: &Dense, b: &[f64]) -> Option<Vector> {
     let n = a.size;
     if n > SMALL {
         return None;
@@ -244,18 +274,18 @@ struct Orthogonal {
     rank: usize,
     /// R above the diagonal, the reflectors of Q below with their leading entry in `heads`.
     r: Dense,
-    heads: Vec<f64>,
-    order: Vec<usize>,
+    heads: Vector,
+    order: SmallVec<[usize; 12]>,
     /// The same for `[R₁₁ R₁₂]ᵀ`, where the rank is deficient.
-    second: Option<(Dense, Vec<f64>)>,
+    second: Option<(Dense, Vector)>,
 }
 
 impl Orthogonal {
     fn new(a: &Dense) -> Self {
         let n = a.size;
         let mut r = a.clone();
-        let mut order: Vec<usize> = (0..n).collect();
-        let mut heads = vec![0.0; n];
+        let mut order: SmallVec<[usize; 12]> = (0..n).collect();
+        let mut heads = zeros(n);
         let mut rank = n;
         let mut first = 0.0;
         for (k, head) in heads.iter_mut().enumerate() {
@@ -274,11 +304,7 @@ impl Orthogonal {
                 rank = k;
                 break;
             }
-            for row in 0..n {
-                let (x, y) = (r.at(row, k), r.at(row, best.0));
-                r.set(row, k, y);
-                r.set(row, best.0, x);
-            }
+            r.swap_columns(k, best.0);
             order.swap(k, best.0);
             *head = reflect_column(&mut r, k, n, n);
         }
@@ -292,9 +318,9 @@ impl Orthogonal {
         Self { rank, r, heads, order, second }
     }
 
-    fn solve(&self, b: &[f64]) -> Vec<f64> {
+    fn solve(&self, b: &[f64]) -> Vector {
         let n = b.len();
-        let mut y = b.to_vec();
+        let mut y = Vector::from_slice(b);
         for k in 0..self.rank {
             apply_reflector(&self.r, self.heads[k], k, &mut y);
         }
@@ -314,7 +340,7 @@ impl Orthogonal {
                 y[k] = (y[k] - known) / self.r.at(k, k);
             }
         }
-        let mut x = vec![0.0; n];
+        let mut x = zeros(n);
         for (k, &place) in self.order.iter().enumerate() {
             x[place] = y[k];
         }
@@ -333,13 +359,15 @@ fn reflect_column(a: &mut Dense, k: usize, rows: usize, columns: usize) -> f64 {
     let head = a.at(k, k) - diagonal;
     // H = 1 − v vᵀ / (−diagonal · head), v = (head, rest)
     let scale = -diagonal * head;
-    for c in k + 1..columns {
-        let along = head * a.at(k, c) + dot(&a.column(k)[k + 1..rows], &a.column(c)[k + 1..rows]);
-        let factor = along / scale;
-        a.set(k, c, a.at(k, c) - factor * head);
-        for row in k + 1..rows {
-            a.set(row, c, a.at(row, c) - factor * a.at(row, k));
+    let n = a.size;
+    let (left, right) = a.entries.split_at_mut((k + 1) * n);
+    let below = &left[k * n + k + 1..k * n + rows];
+    for column in right[..(columns - k - 1) * n].chunks_exact_mut(n) {
+        let factor = (head * column[k] + dot(below, &column[k + 1..rows])) / scale;
+        for (x, v) in column[k + 1..rows].iter_mut().zip(below) {
+            *x -= factor * v;
         }
+        column[k] -= factor * head;
     }
     a.set(k, k, diagonal);
     head

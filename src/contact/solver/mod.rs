@@ -19,7 +19,9 @@ pub mod dense;
 pub mod newton;
 pub mod splitting;
 
-use dense::{Dense, largest, least_norm};
+use smallvec::SmallVec;
+
+use dense::{Dense, Vector, largest, least_norm, zeros};
 
 /// Residual up to which a solution counts as one [-], relative to the largest velocity before. Rounding
 /// leaves 1e-16 times the condition number of the contacts, mass ratios of 1e4 leave 1e-12. Larger: worse
@@ -33,7 +35,7 @@ const OTHER_BRANCHES: [f64; 4] = [0.1, 10.0, 0.01, 100.0];
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
     /// Scaled impulses, in the order of the rows.
-    pub impulse: Vec<f64>,
+    pub impulse: Vector,
     /// Natural-map residual over the largest velocity before [-].
     pub residual: f64,
 }
@@ -117,7 +119,7 @@ impl Coulomb<'_> {
 
     /// The answer with its impulses made admissible and its residual.
     fn certify(&self, p: &[f64]) -> Solution {
-        let mut impulse = p.to_vec();
+        let mut impulse = Vector::from_slice(p);
         for i in 0..self.contacts() {
             let p = triple(p, i);
             let mu = self.friction[i];
@@ -135,9 +137,10 @@ impl Coulomb<'_> {
     /// ```text
     /// p = p_n (1, −μ s)      one unknown and the normal row of a contact that slides, three of one that grips
     /// ```
-    fn carry(&self) -> Vec<f64> {
+    fn carry(&self) -> Vector {
         let slides = |i: usize| self.slide[i].is_some();
-        let rows: Vec<usize> = (0..self.q.len()).filter(|row| row.is_multiple_of(3) || !slides(row / 3)).collect();
+        let rows: SmallVec<[usize; 12]> =
+            (0..self.q.len()).filter(|row| row.is_multiple_of(3) || !slides(row / 3)).collect();
         let ray = |i: usize| self.slide[i].map(|s| s.map(|s| -self.friction[i] * s));
         let a = Dense::from_fn(rows.len(), |r, c| {
             let (row, column) = (rows[r], rows[c]);
@@ -148,8 +151,8 @@ impl Coulomb<'_> {
             }
             own + along[0] * self.w.at(row, column + 1) + along[1] * self.w.at(row, column + 2)
         });
-        let stop: Vec<f64> = rows.iter().map(|&row| -self.q[row]).collect();
-        let mut p = vec![0.0; self.q.len()];
+        let stop: Vector = rows.iter().map(|&row| -self.q[row]).collect();
+        let mut p = zeros(self.q.len());
         for (&row, x) in rows.iter().zip(least_norm(&a, &stop)) {
             p[row] = x;
             if let Some(along) = ray(row / 3) {
@@ -162,10 +165,10 @@ impl Coulomb<'_> {
     /// Solves the problem by the ladder of the [module](self).
     pub fn solve(&self) -> Solution {
         if self.scale() == 0.0 {
-            return Solution { impulse: vec![0.0; self.q.len()], residual: 0.0 };
+            return Solution { impulse: zeros(self.q.len()), residual: 0.0 };
         }
-        let none = vec![0.0; self.q.len()];
-        let (mut best, mut starts) = (self.certify(&none), vec![none]);
+        let none = zeros(self.q.len());
+        let mut best = self.certify(&none);
         if best.residual <= CERTIFIED {
             return best;
         }
@@ -173,7 +176,7 @@ impl Coulomb<'_> {
         if best.residual <= CERTIFIED {
             return best;
         }
-        starts.insert(0, best.impulse.clone());
+        let mut starts = vec![best.impulse.clone(), none];
         for start in &starts {
             best = best.or(self.certify(&newton::solve(self, start, newton::ROUNDS, 1.0)));
             if best.residual <= CERTIFIED {

@@ -11,7 +11,7 @@
 //! share what they carry and symmetry is kept. It may cycle far from a solution; the rounds are bounded and
 //! the best iterate is returned.
 
-use super::dense::{Dense, largest, least_norm};
+use super::dense::{Dense, Vector, largest, least_norm, zeros};
 use super::{Coulomb, triple};
 
 /// Rounds before the next solver is asked [-]; few problems need more than ten.
@@ -22,9 +22,9 @@ const ROUNDED: f64 = 1.0e-13;
 const HALVINGS: usize = 6;
 
 /// Up to `rounds` steps from `start` with this ρ; returns the iterate of least F.
-pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize, rho: f64) -> Vec<f64> {
+pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize, rho: f64) -> Vector {
     let scale = problem.scale();
-    let mut p = start.to_vec();
+    let mut p = Vector::from_slice(start);
     let mut f = equations(problem, &p, rho);
     let mut best = (p.clone(), largest(&f));
     let mut before = f64::INFINITY;
@@ -34,7 +34,7 @@ pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize, rho: f64) -> V
             break;
         }
         before = left;
-        let minus: Vec<f64> = f.iter().map(|f| -f).collect();
+        let minus: Vector = f.iter().map(|f| -f).collect();
         let step = least_norm(&slope(problem, &p, rho), &minus);
 
         // the whole step where it helps, a part of it where that helps, else the whole all the same
@@ -42,7 +42,7 @@ pub fn solve(problem: &Coulomb<'_>, start: &[f64], rounds: usize, rho: f64) -> V
         let mut found = None;
         let mut part = 1.0;
         for _ in 0..HALVINGS {
-            let next: Vec<f64> = p.iter().zip(&step).map(|(p, s)| p + part * s).collect();
+            let next: Vector = p.iter().zip(&step).map(|(p, s)| p + part * s).collect();
             let next_f = equations(problem, &next, rho);
             let next_size = norm(&next_f);
             if found.is_none() || next_size < size {
@@ -70,9 +70,9 @@ fn norm(f: &[f64]) -> f64 {
 }
 
 /// Alart and Curnier's F.
-fn equations(problem: &Coulomb<'_>, p: &[f64], rho: f64) -> Vec<f64> {
+fn equations(problem: &Coulomb<'_>, p: &[f64], rho: f64) -> Vector {
     let u = problem.w.times_plus(p, problem.q);
-    let mut f = vec![0.0; p.len()];
+    let mut f = zeros(p.len());
     for i in 0..problem.contacts() {
         let (p, u) = (triple(p, i), triple(&u, i).map(|u| rho * u));
         let normal = (p[0] - u[0]).max(problem.floor[i]);

@@ -11,7 +11,7 @@
 //!
 //! Slow near the answer but hard to mislead. From time to time Newton's method is asked to finish.
 
-use super::dense::{Cholesky, largest};
+use super::dense::{Cholesky, Vector, largest, zeros};
 use super::{CERTIFIED, Coulomb, Solution, newton, triple};
 
 /// Rounds before the best answer so far is returned [-].
@@ -24,13 +24,13 @@ const BALANCE: usize = 10;
 /// Solves the problem, or returns the best answer found.
 pub fn solve(problem: &Coulomb<'_>) -> Solution {
     let size = problem.q.len();
-    let (mut z, mut y) = (vec![0.0; size], vec![0.0; size]);
+    let (mut z, mut y) = (zeros(size), zeros(size));
     let mut best = problem.certify(&z);
     let mut rho = 1.0;
     let Some(mut factor) = Cholesky::new(&problem.w.shifted(rho)) else { return best };
     for round in 1..=ROUNDS {
         let u = problem.w.times_plus(&z, problem.q);
-        let mut right: Vec<f64> = (0..size).map(|k| rho * z[k] - y[k] - problem.q[k]).collect();
+        let mut right: Vector = (0..size).map(|k| rho * z[k] - y[k] - problem.q[k]).collect();
         for i in 0..problem.contacts() {
             if problem.slide[i].is_some() {
                 continue;
@@ -46,7 +46,7 @@ pub fn solve(problem: &Coulomb<'_>) -> Solution {
                 problem.admissible(i, [p[k] + y[k] / rho, p[k + 1] + y[k + 1] / rho, p[k + 2] + y[k + 2] / rho]);
             z[k..k + 3].copy_from_slice(&nearest);
         }
-        let mut primal = vec![0.0; size];
+        let mut primal = zeros(size);
         for k in 0..size {
             primal[k] = p[k] - z[k];
             y[k] += rho * primal[k];
@@ -60,7 +60,7 @@ pub fn solve(problem: &Coulomb<'_>) -> Solution {
             }
         }
         if round % BALANCE == 0 && round < ROUNDS / 2 {
-            let dual: Vec<f64> = z.iter().zip(&before).map(|(z, b)| rho * (z - b)).collect();
+            let dual: Vector = z.iter().zip(&before).map(|(z, b)| rho * (z - b)).collect();
             let (r, s) = (largest(&primal), largest(&dual));
             let change = if r > 10.0 * s {
                 2.0
