@@ -60,7 +60,7 @@ pub(super) fn depth<R: Workshop>(
     R::with_surface(|surface| {
         surface.begin(&corners);
         let bounds = grow(pair, surface, gap, steps, enough, Dents::Allowed);
-        let bounds = bounds.unwrap_or_else(|| flat_answer(start, pair, shallowest));
+        let bounds = bounds.unwrap_or_else(|last| flat_answer(start, pair, [shallowest, last]));
         let points = || Enclosing::Points(surface.core(PairCache::CAPACITY));
         (bounds, surface.pack().map_or_else(points, Enclosing::Surface))
     })
@@ -81,7 +81,7 @@ pub(super) fn depth_on(
         // what faces away all round may also have shrunk to a spot beside the origin, as bodies far off do in rounding
         let is_beyond = |t: &Triangle<f64>| surface.points.iter().any(|p| t.normal.dot(p) < 0.0);
         let is_around = surface.triangles.iter().all(|t| t.distance > 0.0) && surface.triangles.iter().any(is_beyond);
-        let bounds = if is_around { grow(pair, surface, gap, steps, enough, Dents::End)? } else { return None };
+        let bounds = if is_around { grow(pair, surface, gap, steps, enough, Dents::End).ok()? } else { return None };
         let added = surface.points.len() - known;
         if added == 0 {
             return Some((bounds, Enclosing::AsBefore));
@@ -107,7 +107,7 @@ pub(super) fn depth_again(
     f64::with_surface(|surface| {
         build(pair, surface, core)?;
         let known = surface.points.len();
-        let bounds = grow(pair, surface, gap, steps, enough, Dents::Allowed)?;
+        let bounds = grow(pair, surface, gap, steps, enough, Dents::Allowed).ok()?;
         let enclosing = match surface.pack() {
             Some(packed) => Enclosing::Surface(packed),
             None if surface.points.len() == known => Enclosing::AsBefore,
@@ -150,8 +150,8 @@ enum Dents {
     End,
 }
 
-/// Grows the surface until its nearest triangle and a direction bound the depth to within the gap; none
-/// if the bodies turn out to be apart, or the surface to be out of shape.
+/// Grows the surface until its nearest triangle and a direction bound the depth to within the gap; the direction along
+/// which the origin is least deep if the bodies turn out to be apart, or the surface to be out of shape.
 fn grow<R: Real>(
     pair: &impl Difference<R>,
     surface: &mut Surface<R>,
@@ -159,7 +159,7 @@ fn grow<R: Real>(
     steps: &mut u32,
     enough: impl Fn(&Bounds<R>) -> bool,
     dents: Dents,
-) -> Option<Bounds<R>> {
+) -> Result<Bounds<R>, Option<Vec3<R>>> {
     let mut best: Option<Bounds<R>> = None;
     let mut ball = R::from(f64::NEG_INFINITY);
     while surface.points.len() < pair.most_points() {
@@ -171,12 +171,12 @@ fn grow<R: Real>(
         }
         let (ids, low) = pair.lowest(&-normal, Some(surface.ids[corners[0] as usize]));
         if low > R::from(pair.error(0.0)) {
-            return None;
+            return Err(Some(-normal));
         }
 
         if -low - distance <= gap {
             let (simplex, point) = surface.nearest_witness(nearest, gap);
-            return Some(Bounds { simplex, point, normal: -normal, lower: low, upper: -distance });
+            return Ok(Bounds { simplex, point, normal: -normal, lower: low, upper: -distance });
         }
 
         // the largest ball so far and the best direction so far bound the depth; until they meet, the point is the
@@ -198,12 +198,12 @@ fn grow<R: Real>(
         if !surface.ids.contains(&ids) {
             if !surface.expand(nearest, ids, pair.difference(ids)) {
                 if dents == Dents::End {
-                    return None;
+                    return Err(None);
                 }
                 break;
             }
         } else if dents == Dents::End {
-            return None;
+            return Err(None);
         } else if stuck {
             break;
         } else {
@@ -211,7 +211,10 @@ fn grow<R: Real>(
         }
     }
     // bounds that cross say that rounding turned the surface inside out: nothing is proved
-    let mut best = best.filter(|b| b.lower <= b.upper + R::from(pair.error(b.lower.to_f64())))?;
+    let Some(mut best) = best else { return Err(None) };
+    if best.lower > best.upper + R::from(pair.error(best.lower.to_f64())) {
+        return Err(Some(best.normal));
+    }
 
     // where no ball is proved, a point near the origin is an upper bound
     if ball <= R::from(pair.error(0.0))
@@ -222,7 +225,7 @@ fn grow<R: Real>(
             (best.simplex, best.point) = (simplex, point);
         }
     }
-    Some(best)
+    Ok(best)
 }
 
 /// Four points of the difference that span space, from the given ones, and the direction looked along in which the
@@ -232,9 +235,9 @@ fn spanning<R: Real>(
     pair: &impl Difference<R>,
     start: &Simplex<R>,
     gap: R,
-) -> Result<(Simplex<R>, Vec3<R>), Bounds<R>> {
+) -> Result<(Simplex<R>, Option<Vec3<R>>), Bounds<R>> {
     let mut simplex = *start;
-    let mut shallowest = (R::from(f64::NEG_INFINITY), Vec3::new([0.0, 0.0, 1.0]));
+    let mut shallowest: Option<(R, Vec3<R>)> = None;
     while simplex.count < 4 {
         // directions in which the simplex has no extent
         let p = simplex.points;
@@ -260,11 +263,11 @@ fn spanning<R: Real>(
             for n in [unit, -unit] {
                 let (ids, height) = pair.lowest(&n, Some(simplex.ids[0]));
                 let extent = n.dot(&p[0]) - n.dot(&pair.difference(ids));
-                if height > shallowest.0 {
-                    shallowest = (height, n);
-                }
                 if height >= -gap {
-                    return Err(flat_answer(&simplex, pair, n));
+                    return Err(flat_answer(&simplex, pair, [Some(n)]));
+                }
+                if shallowest.is_none_or(|(least, _)| height > least) {
+                    shallowest = Some((height, n));
                 }
                 let w = pair.difference(ids);
                 let measure = match simplex.count {
@@ -277,11 +280,11 @@ fn spanning<R: Real>(
             }
         }
         let Some((_, ids, w)) = farthest else {
-            return Err(flat_answer(&simplex, pair, shallowest.1));
+            return Err(flat_answer(&simplex, pair, [shallowest.map(|(_, n)| n)]));
         };
         simplex.push(ids, w);
     }
-    Ok((simplex, shallowest.1))
+    Ok((simplex, shallowest.map(|(_, n)| n)))
 }
 
 /// The coordinate axis farthest from a direction.
@@ -293,14 +296,22 @@ fn smallest_axis<R: Real>(e: &Vec3<R>) -> Vec3<R> {
     Vec3::new(axis)
 }
 
-/// The answer that `n` gives, where it separates the bodies to rounding or no surface encloses the origin.
-fn flat_answer<R: Real>(simplex: &Simplex<R>, pair: &impl Difference<R>, n: Vec3<R>) -> Bounds<R> {
+/// The answer that the best of some directions gives, where one separates the bodies to rounding or no surface encloses
+/// the origin.
+fn flat_answer<R: Real, const N: usize>(
+    simplex: &Simplex<R>,
+    pair: &impl Difference<R>,
+    directions: [Option<Vec3<R>>; N],
+) -> Bounds<R> {
     let mut simplex = *simplex;
     simplex.count = simplex.count.min(3);
-    let (_, lower) = pair.lowest(&n, Some(simplex.ids[0]));
+    let along = |n: Vec3<R>| (pair.lowest(&n, Some(simplex.ids[0])).1, n);
+    let known = directions.into_iter().flatten().map(along);
+    let best = known.reduce(|best, next| if next.0 > best.0 { next } else { best });
+    let (lower, normal) = best.unwrap_or_else(|| along(Vec3::new([0.0, 0.0, 1.0])));
     let point = match simplex.reduce() {
         Closest::At { point, .. } => point,
         Closest::Inside => simplex.points[0],
     };
-    Bounds { simplex, point, normal: n, lower, upper: point.norm() }
+    Bounds { simplex, point, normal, lower, upper: point.norm() }
 }
