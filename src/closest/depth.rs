@@ -53,8 +53,9 @@ pub(super) fn depth<R: Workshop>(
     enough: impl Fn(&Bounds<R>) -> bool,
 ) -> (Bounds<R>, Enclosing) {
     let gap = R::from(gap);
-    let (corners, shallowest) = match spanning(pair, start, gap) {
-        Ok(found) => found,
+    let mut corners = *start;
+    let shallowest = match spanning(pair, &mut corners, gap) {
+        Ok(shallowest) => shallowest,
         Err(flat) => return (flat, Enclosing::Nothing),
     };
     R::with_surface(|surface| {
@@ -228,15 +229,14 @@ fn grow<R: Real>(
     Ok(best)
 }
 
-/// Four points of the difference that span space, from the given ones, and the direction looked along in which the
+/// Adds points of the difference to the given ones until four span space. Returns the direction looked along in which the
 /// origin is least deep; or the answer, where a direction is met in which the difference lies to one side of the origin,
 /// or rounding leaves it no extent.
 fn spanning<R: Real>(
     pair: &impl Difference<R>,
-    start: &Simplex<R>,
+    simplex: &mut Simplex<R>,
     gap: R,
-) -> Result<(Simplex<R>, Option<Vec3<R>>), Bounds<R>> {
-    let mut simplex = *start;
+) -> Result<Option<Vec3<R>>, Bounds<R>> {
     let mut shallowest: Option<(R, Vec3<R>)> = None;
     while simplex.count < 4 {
         // directions in which the simplex has no extent
@@ -264,7 +264,7 @@ fn spanning<R: Real>(
                 let (ids, height) = pair.lowest(&n, Some(simplex.ids[0]));
                 let extent = n.dot(&p[0]) - n.dot(&pair.difference(ids));
                 if height >= -gap {
-                    return Err(flat_answer(&simplex, pair, [Some(n)]));
+                    return Err(flat_answer(simplex, pair, [Some(n)]));
                 }
                 if shallowest.is_none_or(|(least, _)| height > least) {
                     shallowest = Some((height, n));
@@ -280,11 +280,11 @@ fn spanning<R: Real>(
             }
         }
         let Some((_, ids, w)) = farthest else {
-            return Err(flat_answer(&simplex, pair, [shallowest.map(|(_, n)| n)]));
+            return Err(flat_answer(simplex, pair, [shallowest.map(|(_, n)| n)]));
         };
         simplex.push(ids, w);
     }
-    Ok((simplex, shallowest.map(|(_, n)| n)))
+    Ok(shallowest.map(|(_, n)| n))
 }
 
 /// The coordinate axis farthest from a direction.
