@@ -74,6 +74,19 @@ impl Round {
         }
     }
 
+    /// Direction of the straight line on the side that faces along `d`; none of an ellipsoid.
+    pub(super) fn ruling(&self, d: [f64; 3]) -> Option<[f64; 3]> {
+        match *self {
+            Self::Cylinder { .. } => Some([0.0, 0.0, 1.0]),
+            Self::Cone { radius, half_height } => {
+                let (across, length) = (libm::hypot(d[0], d[1]), libm::hypot(radius, 2.0 * half_height));
+                let inward = -radius / (across * length);
+                (across > 0.0).then_some([inward * d[0], inward * d[1], 2.0 * half_height / length])
+            }
+            Self::Ellipsoid { .. } => None,
+        }
+    }
+
     /// The feature whose outward normals point along the unit vector `d`.
     pub(super) fn feature(&self, d: [f64; 3]) -> Feature {
         let across = libm::hypot(d[0], d[1]);
@@ -150,6 +163,19 @@ mod tests {
                 assert!((precise.to_f64() - height).abs() <= 2.5 * f64::EPSILON * body.reach() * 1.8, "{body:?} {d:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_ruling_lies_on_the_side_and_across_its_normal() {
+        let [cylinder, cone, ellipsoid] = ALL;
+        assert_eq!(cylinder.ruling([0.6, 0.8, 0.0]), Some([0.0, 0.0, 1.0]));
+        assert_eq!(ellipsoid.ruling([0.6, 0.8, 0.0]), None);
+        assert_eq!(cone.ruling([0.0, 0.0, 1.0]), None);
+        // from the rim at (0.7, 0, −1.3) to the apex at (0, 0, 1.3); the side's normal stands across it
+        let length = libm::hypot(2.6, 0.7);
+        let line = cone.ruling([2.6 / length, 0.0, 0.7 / length]).unwrap();
+        assert!((Vec3(line) - Vec3([-0.7 / length, 0.0, 2.6 / length])).norm() <= 2.0 * f64::EPSILON, "{line:?}");
+        assert!(Vec3(line).dot(&Vec3([2.6 / length, 0.0, 0.7 / length])).abs() <= 2.0 * f64::EPSILON);
     }
 
     #[test]

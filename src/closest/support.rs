@@ -1,8 +1,8 @@
 //! Convex pieces one by one: for those who bound separations over time, as the search for impacts does.
 
-use super::answer::{Accuracy, ClosestFeatures};
+use super::answer::{Accuracy, ClosestFeatures, Feature};
 use super::cache::PairCache;
-use super::collider::{Collidable, Core, Solid, View};
+use super::collider::{Collidable, Core, Names, Solid, View};
 use super::rotation::rotate_back;
 use super::vector::Vec3;
 use crate::error::Result;
@@ -80,16 +80,35 @@ impl Piece<'_> {
     /// Direction of an edge, axes of the whole.
     pub(crate) fn edge(&self, edge: u32) -> Option<Vector3> {
         let Solid::Core(Core::Polyhedron(body)) = self.view.solid else { return None };
-        let direction = body.edges().get(edge as usize)?.direction;
-        Some(self.view.placement.map_or_else(|| direction.into(), |placement| placement.vector(direction)))
+        Some(self.in_whole(body.edges().get(edge as usize)?.direction))
+    }
+
+    /// Direction of the straight line that the piece has where a feature faces along `outward`, axes of the whole: an
+    /// edge, or a line on the side of a capsule, a cylinder or a cone.
+    pub(crate) fn line(&self, feature: Feature, outward: &Vector3) -> Option<Vector3> {
+        let Solid::Core(core) = self.view.solid else { return None };
+        match (core, self.view.names, feature) {
+            (Core::Polyhedron(_), Names::Own, Feature::Edge(edge)) => self.edge(edge),
+            (Core::Polyhedron(_), Names::Capsule, Feature::Surface(2)) => self.edge(0),
+            (Core::Round(round), Names::Own, Feature::Surface(_)) => {
+                let outward = Vec3((*outward).into());
+                let outward = self.view.placement.map_or(outward, |placement| rotate_back(placement.turn(), &outward));
+                Some(self.in_whole(round.ruling(outward.0)?))
+            }
+            _ => None,
+        }
+    }
+
+    /// A direction of the piece in the axes of the whole.
+    fn in_whole(&self, direction: [f64; 3]) -> Vector3 {
+        self.view.placement.map_or_else(|| direction.into(), |placement| placement.vector(direction))
     }
 
     /// The points whose hull, rounded off, is the piece: about its centre, axes of the whole; none of a
     /// curved one.
     pub(crate) fn corners(&self) -> Option<Vec<Vector3>> {
         let Solid::Core(Core::Polyhedron(body)) = self.view.solid else { return None };
-        let turned = |v: &[f64; 3]| self.view.placement.map_or_else(|| (*v).into(), |placement| placement.vector(*v));
-        Some(body.vertices_about_center().iter().map(turned).collect())
+        Some(body.vertices_about_center().iter().map(|v| self.in_whole(*v)).collect())
     }
 
     /// Closest features of two pieces; the poses are those of the wholes.

@@ -25,6 +25,7 @@
 //! | a face | ω of its body | the face's plane separates, and turns with the body |
 //! | edge, edge | such that n stays perpendicular to both | so does the common normal |
 //! | edge, vertex | such that n stays perpendicular to the edge | |
+//! | a side of a capsule, a cylinder, a cone | as an edge | it is straight along its ruling |
 //! | any | 0 | far away, where n hardly matters |
 //!
 //! From there the search leaps on, where that can be proved from its far end backwards, with the same bound and
@@ -436,24 +437,20 @@ impl<'a> Search<'a> {
         if self.a.is_plane || self.b.is_plane {
             return [Some(if self.a.is_plane { w_a } else { w_b }), None];
         }
+        let lines = || (self.a.line(&stand.a, features.0, n), self.b.line(&stand.b, features.1, &-n));
         let natural = match features {
             (Feature::Face(_), _) => w_a,
             (_, Feature::Face(_)) => w_b,
-            (Feature::Edge(i), Feature::Edge(j)) => {
-                let (e, f) = (self.a.edge(&stand.a, i), self.b.edge(&stand.b, j));
-                let (p, q) = (along(&e, &w_a), along(&f, &w_b));
-                let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
-                n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
-            }
-            (Feature::Edge(i), Feature::Vertex(_)) => {
-                let e = self.a.edge(&stand.a, i);
-                n.cross(&(along(&e, &w_a) * e))
-            }
-            (Feature::Vertex(_), Feature::Edge(j)) => {
-                let f = self.b.edge(&stand.b, j);
-                n.cross(&(along(&f, &w_b) * f))
-            }
-            _ => zero,
+            _ => match lines() {
+                (Some(e), Some(f)) => {
+                    let (p, q) = (along(&e, &w_a), along(&f, &w_b));
+                    let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());
+                    n.cross(&(((p - c * q) / s2) * e + ((q - c * p) / s2) * f))
+                }
+                (Some(e), None) => n.cross(&(along(&e, &w_a) * e)),
+                (None, Some(f)) => n.cross(&(along(&f, &w_b) * f)),
+                (None, None) => zero,
+            },
         };
         if natural == zero || !natural.norm_squared().is_finite() {
             return [Some(zero), None];

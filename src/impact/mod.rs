@@ -273,6 +273,29 @@ mod tests {
     }
 
     #[test]
+    fn a_capsule_that_turns_comes_down_on_a_rim_as_it_would_on_an_edge() {
+        // its side 1e-10 m above the rim, which it meets at 1e-5 m/s while it turns about its centre: a gap of
+        // (r + 1e-10 − 1e-5 t) cos ωt − r, to be closed to 1e-12 of the pair's size, 1 m, and known to the rounding of that
+        // size; a normal that did not turn along would be lost by ω times the half height, 1e4 times as fast
+        use crate::closest::Collider;
+        use crate::shape::{Capsule, Cylinder};
+        let table = Collider::new(&Cylinder::new(0.5, 0.05).into()).unwrap();
+        let capsule = Collider::new(&Capsule::new(0.03, 0.1).into()).unwrap();
+        let n = Vector3::new(0.6, 0.0, 0.8);
+        // its axis lies in the plane of n and the rim's axis, across n, and turns in that plane
+        let across = crate::math::quaternion::from_axis_angle(&Vector3::y(), libm::atan2(0.8, -0.6));
+        let position = Vector3::new(0.5, 0.0, 0.05) + (0.03 + 1e-10) * n;
+        let pose = Pose { position, orientation: across };
+        let comes = Motion::new(pose, -1e-5 * n, [0.0, 1.0, 0.0]);
+        let rests = Motion::resting(Pose::identity());
+        let found = time_of_impact(&table, &rests, &capsule, &comes, 1.0, None, Finder::Guaranteed).unwrap();
+        assert_eq!(found.outcome, Outcome::At);
+        let gap = (1e-10 - 1e-5 * found.time) - 0.03 * (1.0 - found.time.cos());
+        assert!(gap <= 1e-12 && (gap - found.closest.signed_distance).abs() <= 4.0 * f64::EPSILON, "{found:?}");
+        assert!(found.iterations <= 20, "{found:?}");
+    }
+
+    #[test]
     fn a_bullet_meets_a_thin_plate_at_any_speed() {
         // faces at −1e-6 and from 3 − 0.01 on: t = (2.99 − 1e-6)/v, early by ε/v at most
         let (plate, bullet) = (cuboid([0.5, 0.5, 1e-6]), cuboid([0.01; 3]));

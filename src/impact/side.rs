@@ -2,7 +2,7 @@
 
 use super::motion::{Instant, MotionBounds, Moving};
 use super::swept::Swept;
-use crate::closest::Piece;
+use crate::closest::{Feature, Piece};
 use crate::math::{Matrix3, Vector3, quaternion};
 
 /// A convex body and its motion.
@@ -91,6 +91,12 @@ impl<'a> Side<'a> {
             (Some(half), Some(swept)) => swept.height_of(half, d),
             _ => self.height(placed, d),
         }
+    }
+
+    /// Direction of the straight line that the body has where a feature faces along `outward`, world axes.
+    pub(super) fn line(&self, placed: &Placed, feature: Feature, outward: &Vector3) -> Option<Vector3> {
+        let line = self.piece.line(feature, &placed.rotation.tr_mul(outward))?;
+        Some(placed.rotation * line)
     }
 
     /// Direction of an edge, world axes.
