@@ -215,8 +215,10 @@ impl Pair<'_, '_> {
         let plane = Plane::new(n);
         let towards = -self.b_in_a.inverse_vector(n);
         let of_b: Vec<Corner> = self.b.foremost(&towards, self.eps).iter().map(|c| c.moved(&self.b_in_a)).collect();
-        let a = plane.patch(&self.a.foremost(n, self.eps), self.eps);
-        let b = plane.patch(&of_b, self.eps);
+        let mut a = plane.patch(&self.a.foremost(n, self.eps), self.eps);
+        let mut b = plane.patch(&of_b, self.eps);
+        a.rim = self.a.disc(n, self.eps).map(|(middle, radius)| (plane.flat(&middle), radius));
+        b.rim = self.b.disc(&towards, self.eps).map(|(middle, r)| (plane.flat(&self.b_in_a.point(&middle)), r));
         let (face_a, face_b) = (self.a.face_of(&a.corners, n), self.b.face_of(&b.corners, &towards));
 
         // a half space is met wherever the other patch lies
@@ -230,7 +232,7 @@ impl Pair<'_, '_> {
             return self.on_plane(&a, &normal, offset + normal.dot(&self.b_in_a.position), true);
         }
 
-        // corners of each inside the other, and crossings of their sides
+        // corners of each inside the other, and crossings of their sides and rims
         let mut met: Vec<([f64; 2], Option<Feature>, Option<Feature>)> = Vec::new();
         for (k, p) in a.flat.iter().enumerate() {
             if b.holds(p, self.eps) {
@@ -243,7 +245,11 @@ impl Pair<'_, '_> {
             }
         }
         for (i, side) in a.sides().enumerate() {
-            for (j, other) in b.sides().enumerate() {
+            met.extend(b.crossings_of_rim(side).map(|p| (p, a.feature(self.a, i), None)));
+        }
+        for (j, other) in b.sides().enumerate() {
+            met.extend(a.crossings_of_rim(other).map(|p| (p, None, b.feature(self.b, j))));
+            for (i, side) in a.sides().enumerate().filter(|_| a.rim.is_none() && b.rim.is_none()) {
                 if let Some(p) = crossing(side, other, self.eps) {
                     met.push((p, a.feature(self.a, i), b.feature(self.b, j)));
                 }
@@ -298,6 +304,8 @@ struct Patch {
     flat: Vec<[f64; 2]>,
     heights: Vec<f64>,
     corners: Vec<Corner>,
+    /// The circle that the hull's corners are in, of a disc: its middle and radius.
+    rim: Option<([f64; 2], f64)>,
 }
 
 impl Plane {
@@ -310,11 +318,14 @@ impl Plane {
         p[0] * self.first + p[1] * self.second + height * self.normal
     }
 
+    fn flat(&self, p: &Vector3) -> [f64; 2] {
+        [self.first.dot(p), self.second.dot(p)]
+    }
+
     /// The hull of corners; what is thinner than ε is a segment, what is shorter a point.
     fn patch(&self, corners: &[Corner], eps: f64) -> Patch {
-        let flat = |c: &Corner| [self.first.dot(&c.at), self.second.dot(&c.at)];
         let mut order: Vec<usize> = (0..corners.len()).collect();
-        let at: Vec<[f64; 2]> = corners.iter().map(flat).collect();
+        let at: Vec<[f64; 2]> = corners.iter().map(|c| self.flat(&c.at)).collect();
         order.sort_by(|&i, &j| at[i][0].total_cmp(&at[j][0]).then(at[i][1].total_cmp(&at[j][1])));
 
         // Andrew's chain, which keeps only corners that stand out by more than ε
@@ -342,6 +353,7 @@ impl Plane {
             flat: hull.iter().map(|&k| at[k]).collect(),
             heights: hull.iter().map(|&k| self.normal.dot(&corners[k].at)).collect(),
             corners: hull.iter().map(|&k| corners[k]).collect(),
+            rim: None,
         }
     }
 }
@@ -377,6 +389,9 @@ impl Patch {
 
     /// Whether a place lies in the patch to within ε.
     fn holds(&self, p: &[f64; 2], eps: f64) -> bool {
+        if let Some((middle, radius)) = &self.rim {
+            return distance(middle, p) <= radius + eps;
+        }
         match &self.flat[..] {
             [] => false,
             [only] => distance(only, p) <= eps,
@@ -391,6 +406,21 @@ impl Patch {
                 d[0] * q[1] - d[1] * q[0] >= -eps * libm::hypot(d[0], d[1])
             }),
         }
+    }
+
+    /// Where a side crosses the rim; nowhere without one.
+    fn crossings_of_rim(&self, [from, to]: [&[f64; 2]; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let (from, d) = (*from, [to[0] - from[0], to[1] - from[1]]);
+        let parts = self.rim.map(|(middle, radius)| {
+            let q = [from[0] - middle[0], from[1] - middle[1]];
+            let square = d[0] * d[0] + d[1] * d[1];
+            let (half, cross) = (-(d[0] * q[0] + d[1] * q[1]) / square, d[0] * q[1] - d[1] * q[0]);
+            let off = cross * cross / square;
+            let reach = ((radius * radius - off) / square).sqrt();
+            [half - reach, half + reach]
+        });
+        let within = parts.into_iter().flatten().filter(|part| (0.0..=1.0).contains(part));
+        within.map(move |part| [from[0] + part * d[0], from[1] + part * d[1]])
     }
 
     /// Height of the patch at a place: of the point, along the segment, or of the plane through a polygon

@@ -2,15 +2,15 @@
 //!
 //! Exact for each surface; "foremost" means within ε of the farthest point, so that a face tilted by less
 //! than ε over its extent counts as lying flat. A circular face is given as the regular polygon of
-//! sixteen corners in its rim.
+//! sixteen corners in its rim, and by the rim itself, which cuts what lies across it.
 
 use crate::closest::Feature;
 use crate::math::{Pose, Vector3};
 use crate::shape::convex_polyhedron::ConvexPolyhedron;
 use crate::shape::{Capsule, Cone, Cylinder, Ellipsoid, HalfSpace, Sphere};
 
-/// Corners of the polygon that stands for a circular face [-]. Inside it a load is carried as by the disc;
-/// in the slivers outside, up to 1 − cos(π/16) = 2 % of the radius, a load tips the body early.
+/// Corners of the polygon that stands for a circular face on a larger one [-]. Inside it a load is carried as by the
+/// disc; in the slivers outside, up to 1 − cos(π/16) = 2 % of the radius, a load tips the body early.
 pub(super) const DISC: usize = 16;
 
 /// A surface that bodies can touch with.
@@ -66,6 +66,17 @@ impl Surface<'_> {
         }
     }
 
+    /// The circular face that lies within `eps` of the farthest point along a unit direction: its middle, own axes, and
+    /// its radius [m].
+    pub(super) fn disc(&self, d: &Vector3, eps: f64) -> Option<(Vector3, f64)> {
+        let (radius, z) = match self {
+            Self::Cylinder(c) => (c.radius, c.half_height.copysign(d.z)),
+            Self::Cone(c) if d.z < 0.0 => (c.radius, -c.half_height),
+            _ => return None,
+        };
+        (2.0 * radius * libm::hypot(d.x, d.y) <= eps).then(|| (Vector3::new(0.0, 0.0, z), radius))
+    }
+
     /// The corners within `eps` of the farthest point along a unit direction, own axes; several of them in
     /// no particular order. Empty for a half space.
     pub(super) fn foremost(&self, d: &Vector3, eps: f64) -> Vec<Corner> {
@@ -75,13 +86,13 @@ impl Surface<'_> {
         let axis = Vector3::z();
         let one = |at: Vector3| vec![Corner { at, vertex: None }];
         let all = |points: &[Vector3]| points.iter().map(|&at| Corner { at, vertex: None }).collect::<Vec<_>>();
-        let disc = |radius: f64, z: f64| {
+        if let Some((middle, radius)) = self.disc(d, eps) {
             let corner = |k: usize| {
                 let (sin, cos) = libm::sincos(std::f64::consts::TAU * k as f64 / DISC as f64);
-                Corner { at: Vector3::new(radius * cos, radius * sin, z), vertex: None }
+                Corner { at: middle + radius * Vector3::new(cos, sin, 0.0), vertex: None }
             };
-            (0..DISC).map(corner).collect::<Vec<_>>()
-        };
+            return (0..DISC).map(corner).collect();
+        }
         match self {
             Self::Polyhedron(body) => {
                 let center = Vector3::from(body.center());
@@ -93,7 +104,6 @@ impl Surface<'_> {
             }
             Self::HalfSpace(_) => Vec::new(),
             Self::Sphere(s) => one(s.radius * d),
-            Self::Cylinder(c) if 2.0 * c.radius * length <= eps => disc(c.radius, c.half_height.copysign(d.z)),
             Self::Cylinder(c) if 2.0 * c.half_height * d.z.abs() <= eps => {
                 let line = c.radius * radial;
                 all(&[line - c.half_height * axis, line + c.half_height * axis])
@@ -106,13 +116,7 @@ impl Surface<'_> {
             Self::Cone(c) => {
                 let (apex, rim) = (c.half_height * axis, c.radius * radial - c.half_height * axis);
                 let (up, down) = (apex.dot(d), rim.dot(d));
-                if 2.0 * c.radius * length <= eps && d.z < 0.0 {
-                    disc(c.radius, -c.half_height)
-                } else if (up - down).abs() <= eps {
-                    all(&[apex, rim])
-                } else {
-                    one(if up > down { apex } else { rim })
-                }
+                if (up - down).abs() <= eps { all(&[apex, rim]) } else { one(if up > down { apex } else { rim }) }
             }
             Self::Ellipsoid(e) => {
                 let scaled = Vector3::from(e.semi_axes).component_mul(d);

@@ -233,6 +233,38 @@ fn a_polyhedron_on_the_floor_touches_with_what_is_foremost() {
 }
 
 #[test]
+fn a_capsule_and_a_board_lie_across_the_rim_of_a_round_table() {
+    // along the radius half way between two corners of the polygon that stands for the disc elsewhere
+    let azimuth = std::f64::consts::PI / 16.0;
+    let (sin, cos) = libm::sincos(azimuth);
+    let outward = |r: f64| vector(r * cos, r * sin, 0.0);
+    let table = Cylinder::new(0.5, 0.05);
+    let lying = |r: f64, z: f64| {
+        let down = quaternion::from_axis_angle(&Vector3::y(), std::f64::consts::FRAC_PI_2);
+        let orientation = quaternion::from_axis_angle(&Vector3::z(), azimuth) * down;
+        Pose { position: outward(r) + vector(0.0, 0.0, z), orientation }
+    };
+    let on_table = |surface: &Surface<'_>, pose: &Pose, from: f64| {
+        let p = outward(from);
+        let touch = Touch { point_a: p, point_b: p, normal: Vector3::z(), signed_distance: 0.0 };
+        manifold(&Surface::Cylinder(&table), &at(0.0, 0.0, -0.05), surface, pose, &touch, EPS)
+    };
+    // from 0.35 to 0.55, of which the table ends at 0.5; and from 0.3 to 0.496, all on it
+    let capsule = Capsule::new(0.03, 0.1);
+    assert_points(&on_table(&Surface::Capsule(&capsule), &lying(0.45, 0.03), 0.4), &[outward(0.35), outward(0.5)]);
+    let short = Capsule::new(0.03, 0.098);
+    assert_points(&on_table(&Surface::Capsule(&short), &lying(0.398, 0.03), 0.4), &[outward(0.3), outward(0.496)]);
+    // a board of ±0.1 across it, whose long sides the rim cuts where |outward(r) ± 0.1 across| = 0.5
+    let board = cuboid([0.02, 0.1, 0.1]);
+    let reach = (0.25_f64 - 0.01).sqrt();
+    let corner = |r: f64, side: f64| outward(r) + side * vector(-sin, cos, 0.0);
+    let found = on_table(&Surface::Polyhedron(&board), &lying(0.45, 0.02), 0.4);
+    for p in [corner(0.35, 0.1), corner(0.35, -0.1), corner(reach, 0.1), corner(reach, -0.1)] {
+        assert!(found.points.iter().any(|q| (q.point_a - p).norm() < 1e-15), "{p:?} {found:?}");
+    }
+}
+
+#[test]
 fn a_ball_on_a_box_and_a_can_on_a_box() {
     let a = cuboid([1.0, 1.0, 0.5]);
     let (sphere, can) = (Sphere::new(0.2), Cylinder::new(0.1, 0.3));
