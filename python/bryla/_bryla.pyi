@@ -1394,6 +1394,7 @@ class Scene:
         finder: _Finder | None = None,
         eps: _Number | None = None,
         restitution_law: _RestitutionLaw | None = None,
+        max_impacts: int | None = None,
         events: Iterable[UserEvent] | None = None,
     ) -> Plan:
         """Checks the scene and keeps what it calls for: a Plan. The options are those of `run`."""
@@ -1418,6 +1419,7 @@ class Scene:
         finder: _Finder | None = None,
         eps: _Number | None = None,
         restitution_law: _RestitutionLaw | None = None,
+        max_impacts: int | None = None,
         events: Iterable[UserEvent] | None = None,
         progress: bool = False,
     ) -> Trajectory:
@@ -1461,6 +1463,8 @@ class Scene:
         restitution_law : {"newton", "poisson", "stronge"}, optional
             What comes back where friction couples normal and tangent: the impulse of compression (default),
             the normal velocity, or the work of compression.
+        max_impacts : int, optional
+            Impacts of one body after which the run ends as AccumulatingImpacts; 1,000,000 by default.
         events : list of UserEvent, optional
             What is watched for.
         progress : bool
@@ -1494,6 +1498,7 @@ class Scene:
         finder: _Finder | None = None,
         eps: _Number | None = None,
         restitution_law: _RestitutionLaw | None = None,
+        max_impacts: int | None = None,
         progress: bool = False,
     ) -> ComparisonTable:
         """What accuracy costs: error against time for several methods, steps and tolerances, a ComparisonTable.
@@ -1513,7 +1518,7 @@ class Scene:
             not estimated in these runs, which costs extra.
         repeats : int
             How often each run is timed; the least and the middle time are kept.
-        order, length_scale, orientation, projection, finder, eps, restitution_law
+        order, length_scale, orientation, projection, finder, eps, restitution_law, max_impacts
             As in run.
         progress : bool
             Whether a progress line is shown on a terminal.

@@ -42,6 +42,7 @@ pub(crate) fn run_options(scene: &RunOptions, function: &str, given: Option<&Bou
             "finder" => options.finder = Plain::from_python(read(&name, &value)?)?,
             "eps" => options.eps = Some(read(&name, &value)?),
             "restitution_law" => options.restitution_law = Plain::from_python(read(&name, &value)?)?,
+            "max_impacts" => options.max_impacts = read(&name, &value)?,
             "events" => options.events = events(&value)?,
             _ => {
                 let message = format!("{function}() got an unexpected keyword argument '{name}'");

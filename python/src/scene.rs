@@ -90,7 +90,7 @@ impl PyScene {
     /// Checks the scene and keeps what it calls for: a Plan. The options are those of `run`.
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, tolerance=None, method=None, order=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None)"
+        text_signature = "($self, *, tolerance=None, method=None, order=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, max_impacts=None, events=None)"
     )]
     fn compile(&self, options: Option<&Bound<'_, PyDict>>) -> Result<PyPlan> {
         let options = run_options(&self.0.run, "compile", options)?;
@@ -143,6 +143,8 @@ impl PyScene {
     /// restitution_law : {"newton", "poisson", "stronge"}, optional
     ///     What comes back where friction couples normal and tangent: the impulse of compression (default),
     ///     the normal velocity, or the work of compression.
+    /// max_impacts : int, optional
+    ///     Impacts of one body after which the run ends as AccumulatingImpacts; 1,000,000 by default.
     /// events : list of UserEvent, optional
     ///     What is watched for.
     /// progress : bool
@@ -161,7 +163,7 @@ impl PyScene {
     ///     The tolerance is not met over the whole span; report.horizon says up to when it is.
     #[pyo3(
         signature = (t_span=None, *, progress=false, **options),
-        text_signature = "($self, t_span=None, *, tolerance=None, method=None, order=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, events=None, progress=False)"
+        text_signature = "($self, t_span=None, *, tolerance=None, method=None, order=None, step=None, t_eval=None, estimate=None, record=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, max_impacts=None, events=None, progress=False)"
     )]
     fn run(
         &self,
@@ -192,13 +194,13 @@ impl PyScene {
     ///     not estimated in these runs, which costs extra.
     /// repeats : int
     ///     How often each run is timed; the least and the middle time are kept.
-    /// order, length_scale, orientation, projection, finder, eps, restitution_law
+    /// order, length_scale, orientation, projection, finder, eps, restitution_law, max_impacts
     ///     As in run.
     /// progress : bool
     ///     Whether a progress line is shown on a terminal.
     #[pyo3(
         signature = (t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, progress=false, **options),
-        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, order=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, progress=False)"
+        text_signature = "($self, t_span=None, *, methods=None, steps=None, tolerances=None, repeats=5, order=None, length_scale=None, orientation=None, projection=None, finder=None, eps=None, restitution_law=None, max_impacts=None, progress=False)"
     )]
     #[expect(clippy::too_many_arguments, reason = "those of the core, and two of Python")]
     fn compare(

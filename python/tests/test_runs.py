@@ -280,6 +280,21 @@ def test_a_run_that_breaks_off_keeps_what_it_computed():
     assert caught.value.trajectory is None
 
 
+def test_impacts_beyond_those_allowed_end_the_run():
+    # an elastic ball meets the floor at 0.3, 0.9 and 1.5 s
+    scene = bryla.Scene()
+    scene.add_effect(bryla.UniformGravity((0, 0, -10)))
+    scene.add(bryla.Body("floor", bryla.HalfSpace((0, 0, 1), 0), fixed=True))
+    scene.add(bryla.Body("ball", bryla.Sphere(0.1), mass=1, position=(0, 0, 0.55), restitution=1))
+    assert len(scene.run((0, 2), tolerance=1e-9, max_impacts=3).events) == 3
+    with pytest.raises(bryla.SimulationError, match="AccumulatingImpacts: max_impacts = 2 of ball") as caught:
+        scene.run((0, 2), tolerance=1e-9, max_impacts=2)
+    assert caught.value.time == pytest.approx(1.5, abs=1e-9)
+    assert caught.value.trajectory.end == caught.value.time
+    with pytest.raises((TypeError, ValueError, OverflowError), match="max_impacts"):
+        scene.run((0, 2), max_impacts=-1)
+
+
 def test_a_tolerance_that_is_not_met_is_a_warning_in_the_callers_line():
     # Euler's method would need 1e9 steps
     scene = spinning_scene()

@@ -400,6 +400,7 @@
 //! | `finder` | | `"guaranteed"` | how the time of contact is found: `"guaranteed"` proves every piece of the way free; the lecture's `"secant"` and `"bisection"` look at the ends of steps |
 //! | `eps` | m | 1e-12 of the pair's size | gap at which a contact is accepted; never below the rounding of the coordinates |
 //! | `restitution_law` | | `"poisson"` | what comes back where friction couples normal and tangent: the impulse of compression (`"poisson"`), the normal velocity (`"newton"`), or the work of compression (`"stronge"`) |
+//! | `max_impacts` | | 1000000 | impacts of one body after which the run ends as `AccumulatingImpacts`: bounces may follow each other without end, at ever shorter times |
 //! | `events` | | none | a list: what is watched for; see [Events](#events) |
 //!
 //! ```toml
@@ -424,6 +425,7 @@
 //! finder = "secant"
 //! eps = 1e-9
 //! restitution_law = "poisson"
+//! max_impacts = 1000000
 //! ```
 //!
 //! # Events

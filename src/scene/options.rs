@@ -131,6 +131,9 @@ pub struct RunOptions {
     pub eps: Option<f64>,
     /// What restitution means where friction couples the normal and the tangent.
     pub restitution_law: Law,
+    /// Impacts of one body after which the run ends as [`AccumulatingImpacts`](crate::Failure::AccumulatingImpacts): each
+    /// costs some 0.1 ms, and bounces that follow each other ever faster need more than a run can take.
+    pub max_impacts: u64,
     /// What is watched for.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub events: Vec<UserEvent>,
@@ -153,6 +156,7 @@ impl Default for RunOptions {
             finder: Finder::Guaranteed,
             eps: None,
             restitution_law: Law::default(),
+            max_impacts: 1_000_000,
             events: Vec::new(),
         }
     }
@@ -252,6 +256,13 @@ impl RunOptions {
     #[must_use]
     pub fn restitution_law(mut self, law: Law) -> Self {
         self.restitution_law = law;
+        self
+    }
+
+    /// Impacts of one body after which the run ends as `AccumulatingImpacts`.
+    #[must_use]
+    pub fn max_impacts(mut self, max_impacts: u64) -> Self {
+        self.max_impacts = max_impacts;
         self
     }
 

@@ -28,7 +28,7 @@ use crate::trajectory::{Event, EventKind, Heat, Trajectory};
 
 /// Impacts of one body at one instant after which it is said to be caught [-]. Two planes that answer each
 /// other with e < 1 are done to rounding after about 50.
-pub(super) const ROUNDS_AT_ONCE: u32 = 64;
+const ROUNDS_AT_ONCE: u32 = 64;
 /// Height of a bounce below which there is none, as a fraction of the pair's size [-]. Larger: bodies come to
 /// rest earlier, by the time of the bounces that are left out. Smaller: more bounces, each half as high.
 const REST_RISE: f64 = 1.0e-10;
@@ -100,12 +100,7 @@ impl Simulation {
         self.book_stuck(&cluster, &before, stuck, time, iterations);
         let bounced = self.collide(&mut cluster, &scales, time, iterations)?;
         if bounced {
-            for body in self.bodies_of(&cluster).into_iter().filter(|&i| self.places[i].is_some()) {
-                if self.near.count_hit(body, time.value) > ROUNDS_AT_ONCE {
-                    let why = format!("{ROUNDS_AT_ONCE} impacts at one instant");
-                    return Err(self.failure_of(&seeds, time.value, Failure::AccumulatingImpacts(why)));
-                }
-            }
+            self.count_hits(&self.bodies_of(&cluster), &seeds, time)?;
         }
         self.iterations += u64::from(iterations);
 
@@ -283,6 +278,28 @@ impl Simulation {
             self.heat.push(Heat::at(time.value, heat));
         }
         Ok(true)
+    }
+
+    /// Counts an impact of those of the bodies that move; an error where one of them has had too many.
+    pub(super) fn count_hits(
+        &mut self,
+        bodies: &[usize],
+        between: &[usize],
+        time: Time,
+    ) -> Result<(), SimulationError> {
+        let most = self.plan.options().max_impacts;
+        for &body in bodies.iter().filter(|&&body| self.places[body].is_some()) {
+            let hits = self.near.count_hit(body, time.value);
+            let why = if hits.at_once > ROUNDS_AT_ONCE {
+                format!("{ROUNDS_AT_ONCE} impacts at one instant")
+            } else if hits.in_all > most {
+                format!("max_impacts = {most} of {} are used up", self.body(body).name)
+            } else {
+                continue;
+            };
+            return Err(self.failure_of(between, time.value, Failure::AccumulatingImpacts(why)));
+        }
+        Ok(())
     }
 
     /// Books the bounce of a pair, its impulses and the energy lost in it [J]; what was booked of the latter.

@@ -8,7 +8,6 @@
 //! stuck to something fixed hangs by one joint more. Where a joint breaks both sides go on as they move: momenta and
 //! energy stay. The two still touch then; they stick again where they meet again at a speed.
 
-use super::answer::ROUNDS_AT_ONCE;
 use super::cluster::{Cluster, Touching, in_words};
 use super::led::Led;
 use super::near::{Due, What};
@@ -277,12 +276,7 @@ impl Simulation {
         let unit = self.unit(pair[1]);
         let Some(place) = self.joints.iter().position(|joint| joint.bodies == pair) else { return Ok(()) };
         let Some((index, _)) = self.places[unit] else { return Ok(()) };
-        for body in pair.into_iter().filter(|&body| self.places[body].is_some()) {
-            if self.near.count_hit(body, time.value) > ROUNDS_AT_ONCE {
-                let why = format!("{ROUNDS_AT_ONCE} breaks and impacts at one instant");
-                return Err(self.failure_of(&pair, time.value, Failure::AccumulatingImpacts(why)));
-            }
-        }
+        self.count_hits(&pair, &pair, time)?;
 
         // one event, with what the joint carried
         let joint = self.joints[place].clone();

@@ -80,8 +80,25 @@ pub(super) struct Window {
     pub(super) number: u64,
     /// The box; none of a half space.
     pub(super) aabb: Option<Aabb>,
-    /// When the body was hit last [s], and how often at that instant.
-    pub(super) hit: (f64, u32),
+    /// The body's impacts so far.
+    pub(super) hits: Hits,
+}
+
+/// Impacts of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Hits {
+    /// When the last one was [s].
+    pub(super) last: f64,
+    /// How many there were at that instant.
+    pub(super) at_once: u32,
+    /// How many there were in all.
+    pub(super) in_all: u64,
+}
+
+impl Hits {
+    /// Of a body that has hit nothing yet.
+    const NONE: Self = Self { last: f64::MIN, at_once: 0, in_all: 0 };
 }
 
 /// Who may meet whom, and what is due.
@@ -100,9 +117,9 @@ impl Near {
     pub(super) fn open(&mut self, body: usize, to: f64, aabb: Option<Aabb>) -> u64 {
         let before = self.windows[body];
         let number = before.map_or(0, |window| window.number + 1);
-        let hit = before.map_or((f64::MIN, 0), |window| window.hit);
+        let hits = before.map_or(Hits::NONE, |window| window.hits);
         let to = to.min(f64::MAX); // a file has no infinity
-        self.windows[body] = Some(Window { to, number, aabb, hit });
+        self.windows[body] = Some(Window { to, number, aabb, hits });
         match aabb {
             Some(aabb) => self.tree.put(body, aabb),
             None => self.planes.push(body),
@@ -130,10 +147,11 @@ impl Near {
         into.sort_unstable();
     }
 
-    /// How often the body has been hit at this very time [s], this time included.
-    pub(super) fn count_hit(&mut self, body: usize, time: f64) -> u32 {
-        let Some(window) = &mut self.windows[body] else { return 1 };
-        window.hit = if window.hit.0 == time { (time, window.hit.1 + 1) } else { (time, 1) };
-        window.hit.1
+    /// Counts an impact of the body at this time [s].
+    pub(super) fn count_hit(&mut self, body: usize, time: f64) -> Hits {
+        let Some(window) = &mut self.windows[body] else { return Hits::NONE };
+        let Hits { last, at_once, in_all } = window.hits;
+        window.hits = Hits { last: time, at_once: if last == time { at_once + 1 } else { 1 }, in_all: in_all + 1 };
+        window.hits
     }
 }
