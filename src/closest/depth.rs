@@ -79,9 +79,11 @@ pub(super) fn depth_on(
     f64::with_surface(|surface| {
         surface.restore(pair, packed);
         let known = surface.points.len();
-        // what faces away all round may also have shrunk to a spot beside the origin, as bodies far off do in rounding
+        // what faces away all round may also have shrunk to a spot or to a line beside the origin, as bodies far off or
+        // very thin ones do in rounding
         let is_beyond = |t: &Triangle<f64>| surface.points.iter().any(|p| t.normal.dot(p) < 0.0);
-        let is_around = surface.triangles.iter().all(|t| t.distance > 0.0) && surface.triangles.iter().any(is_beyond);
+        let faces_away = |t: &Triangle<f64>| t.distance > 0.0 && !t.stuck;
+        let is_around = surface.triangles.iter().all(faces_away) && surface.triangles.iter().any(is_beyond);
         let bounds = if is_around { grow(pair, surface, gap, steps, enough, Dents::End).ok()? } else { return None };
         let added = surface.points.len() - known;
         if added == 0 {

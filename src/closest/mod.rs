@@ -35,7 +35,8 @@
 //!
 //! **What is not certified**: a curved body overlapping so that ways out on a whole curve are all but
 //! equally deep, though no common axis makes them so, such as cylinders at an angle of 1e-6. The interval
-//! then is wider, about 1e-4 of the size, it still holds, and `certified` is false.
+//! then is wider, about 1e-4 of the size, it still holds, and `certified` is false. So it may be of a solid that is
+//! thinner than 16 ε of its length, which is less than the rounding of its own coordinates.
 //!
 //! Modules: [`planar`] is the lecture's own two-dimensional walk over Voronoi regions.
 

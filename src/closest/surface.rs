@@ -198,7 +198,7 @@ impl<R: Real> Surface<R> {
         let length = n.norm();
         if length == R::from(0.0) {
             let (normal, alive) = (Vec3::zero(), true);
-            let mut flat = Triangle { corners, across, normal, distance: length, top: length, stuck: false, alive };
+            let mut flat = Triangle { corners, across, normal, distance: length, top: length, stuck: true, alive };
             self.close_up(&mut flat);
             return flat;
         }
