@@ -40,6 +40,9 @@ const SHORT: f64 = 1.0e-3;
 const SHORTS: u32 = 10_000;
 /// Halvings to an instant within a step [-]: to 1e-12 of it.
 const HALVINGS: usize = 40;
+/// Shortest step, in the rounding of the time and of a whole step [-]: what ends sooner ends after it. In a shorter one
+/// the rounded times of its ends would lie outside of it, where its cubic means nothing.
+const LEAST: f64 = 16.0;
 /// A step this much shorter than the one before is the same [-].
 const SAME: f64 = 1.0 - 1.0e-9;
 
@@ -80,13 +83,14 @@ impl Simulation {
 
         // shorter, where a slip turns round or another point touches within it, or where a slip that dies is
         // slow: its direction changes in u/(μ a). What begins to slide takes the whole step at once
+        let least = least_step(time, full);
         let mut kind = Kind::Explicit;
         let begun = self.begin(&start, None)?;
         let mut step = self.try_step(&start, &begun, h, kind)?;
         for _ in 0..SHORTER {
             let shorter = self.first_end(&start, &step)?;
-            if shorter < SAME * h && shorter > 0.0 {
-                h = shorter;
+            if shorter < SAME * h && shorter > 0.0 && h > least {
+                h = shorter.max(least);
                 step = self.try_step(&start, &begun, h, kind)?;
                 continue;
             }
@@ -161,8 +165,12 @@ impl Simulation {
     /// lengths: forces that end within a step make its polynomials useless for that.
     fn until_let_go(&self, start: &Start<'_>, begun: &Stage, whole: Step) -> Result<Step, SimulationError> {
         let (mut low, mut high, mut last) = (0.0, whole.h, None);
+        let least = least_step(start.time, whole.h);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
+            if middle < least {
+                break;
+            }
             let tried = self.predict(start, begun, middle, whole.kind)?;
             if tried.lets_go() {
                 (high, last) = (middle, Some(tried));
@@ -532,6 +540,11 @@ impl Simulation {
         }
         Ok(first)
     }
+}
+
+/// The shortest step that is taken from `time`, where a whole one has the length `full` [s].
+fn least_step(time: Time, full: f64) -> f64 {
+    LEAST * f64::EPSILON * full.max(time.value.abs())
 }
 
 /// The contacts that go on sliding after a step, with their directions.
