@@ -395,7 +395,7 @@ def test_progress_is_shown_on_a_terminal_only(monkeypatch, capsys):
             pass
 
     def long_run():
-        spinning_scene().run((0, 100), method="rk4", step=1e-4, estimate=False, record="end", progress=True)
+        spinning_scene().run((0, 1000), method="rk4", step=1e-4, estimate=False, record="end", progress=True)
 
     long_run()
     assert capsys.readouterr().err == ""
