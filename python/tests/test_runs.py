@@ -291,7 +291,7 @@ def test_impacts_beyond_those_allowed_end_the_run():
         scene.run((0, 2), tolerance=1e-9, max_impacts=2)
     assert caught.value.time == pytest.approx(1.5, abs=1e-9)
     assert caught.value.trajectory.end == caught.value.time
-    with pytest.raises((TypeError, ValueError, OverflowError), match="max_impacts"):
+    with pytest.raises(TypeError, match="max_impacts"):
         scene.run((0, 2), max_impacts=-1)
 
 

@@ -432,16 +432,15 @@ impl<'a> Search<'a> {
         let (w_a, w_b) = (stand.a.instant.angular_velocity, stand.b.instant.angular_velocity);
         let zero = Vector3::zeros();
 
-        // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to an edge e of a body turning with ω
-        let along = |edge: &Vector3, w: &Vector3| w.cross(n).dot(edge);
+        // n′ = Ω × n with n′·e = −n·(ω × e), so that n stays perpendicular to a straight line e of a body turning with ω
+        let along = |line: &Vector3, w: &Vector3| w.cross(n).dot(line);
         if self.a.is_plane || self.b.is_plane {
             return [Some(if self.a.is_plane { w_a } else { w_b }), None];
         }
-        let lines = || (self.a.line(&stand.a, features.0, n), self.b.line(&stand.b, features.1, &-n));
         let natural = match features {
             (Feature::Face(_), _) => w_a,
             (_, Feature::Face(_)) => w_b,
-            _ => match lines() {
+            _ => match (self.a.line(&stand.a, features.0, n), self.b.line(&stand.b, features.1, &-n)) {
                 (Some(e), Some(f)) => {
                     let (p, q) = (along(&e, &w_a), along(&f, &w_b));
                     let (c, s2) = (e.dot(&f), e.cross(&f).norm_squared());

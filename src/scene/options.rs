@@ -131,8 +131,9 @@ pub struct RunOptions {
     pub eps: Option<f64>,
     /// What restitution means where friction couples the normal and the tangent.
     pub restitution_law: Law,
-    /// Impacts of one body after which the run ends as [`AccumulatingImpacts`](crate::Failure::AccumulatingImpacts): each
-    /// costs some 0.1 ms, and bounces that follow each other ever faster need more than a run can take.
+    /// Impacts of one body, and breaks of its joints, after which the run ends as
+    /// [`AccumulatingImpacts`](crate::Failure::AccumulatingImpacts) [-]: bounces may follow each other without end, at ever
+    /// shorter times.
     pub max_impacts: u64,
     /// What is watched for.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]

@@ -280,7 +280,7 @@ impl Simulation {
         Ok(true)
     }
 
-    /// Counts an impact of those of the bodies that move; an error where one of them has had too many.
+    /// Counts an impact of those of the bodies that move, or a break of their joint; an error where one has had too many.
     pub(super) fn count_hits(
         &mut self,
         bodies: &[usize],

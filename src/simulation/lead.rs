@@ -99,7 +99,7 @@ impl Simulation {
             }
             match slips(&start, &step) {
                 Slips::Fast => break,
-                Slips::Dying(suits) => h = suits.min(h),
+                Slips::Dying(suits) => h = suits.max(least).min(h),
                 Slips::Beginning if kind == Kind::Explicit => kind = Kind::Straight,
                 Slips::Beginning => kind = Kind::Implicit,
             }
