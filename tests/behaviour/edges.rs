@@ -360,7 +360,7 @@ fn a_ball_slides_off_a_round_table() {
 #[test]
 fn a_slip_that_ends_as_a_step_begins_leaves_no_step_too_short_for_the_clock() {
     // a capsule comes to lie on a table with e = 0 at 0.2494 s and rolls; at 0.2517 s a slip of rounding ends within 1e-27 s.
-    // Nothing drives it: its energy does not rise, but for the run's tolerance, 1e-8, of the 5.6 J that it starts with
+    // Nothing drives it: its energy does not rise, but for the run's tolerance, 1e-8, of what it starts with
     let table = Body::new("table", Cuboid::new([0.5, 0.5, 0.05])).fixed().restitution(0.0).friction(0.548259676612709);
     let capsule = Capsule::new(0.03747014897861786, 0.10765768760044475);
     let capsule = Body::new("capsule", capsule).density(1000.0).restitution(0.0).friction(0.548259676612709);
@@ -378,5 +378,5 @@ fn a_slip_that_ends_as_a_step_begins_leaves_no_step_too_short_for_the_clock() {
         capsule.kinetic_energy() + capsule.mass * 9.81 * capsule.position.z
     };
     let energies: Vec<f64> = (0..=30).map(energy).collect();
-    assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] + 6e-8), "{energies:?}");
+    assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] + 1e-8 * energies[0]), "{energies:?}");
 }
